@@ -8,7 +8,7 @@ import numpy as np
 
 from ..engineering.arrays import FloatArray
 from ..model.results.arrays import Results
-from .crawlers import Crawler, freest, stands
+from .crawlers import Crawler, freest, standing_places
 from .dressing import DrawnPart, Stuff, rod
 from .standing_room import StandingRoom
 
@@ -52,7 +52,7 @@ def _crane(tips: list[FloatArray], room: StandingRoom) -> tuple[Crawler, FloatAr
     """Return the crane that cuts least, and its tip (3,), m."""
     found = []
     for tip in tips:
-        machines = (Crawler(*stand, _HEEL_M) for stand in stands(tip[:2], room.ground, _BEYOND_M, _ASIDE_M))
+        machines = (Crawler(*stand, _HEEL_M) for stand in standing_places(tip[:2], room.ground, _BEYOND_M, _ASIDE_M))
         crane, cuts = freest(machines, tip[None], room, _BOOM_M)
         found.append((cuts, crane, tip))
         if not cuts:

@@ -11,7 +11,7 @@ from ..engineering.arrays import FloatArray
 from ..engineering.geometry.mesh import TriangleMesh
 from ..engineering.geometry.solids import box
 from ..model.results.arrays import Results
-from .crawlers import Crawler, freest, stands
+from .crawlers import Crawler, freest, standing_places
 from .dressing import DrawnPart, Stuff, rod
 from .standing_room import StandingRoom
 
@@ -71,7 +71,7 @@ def _chisel_m(results: Results, tool: int) -> float:
 
 
 def _excavators(work: FloatArray, room: StandingRoom) -> Iterator[Crawler]:
-    for foot, turn in stands(work[:2], room.ground, _BEYOND_M, _ASIDE_M):
+    for foot, turn in standing_places(work[:2], room.ground, _BEYOND_M, _ASIDE_M):
         for elbow in product(_ELBOW_SHARES, _ELBOW_RISES_M):
             yield Crawler(foot, turn, _HEEL_M, elbow)
 

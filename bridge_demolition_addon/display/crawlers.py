@@ -72,7 +72,7 @@ class Crawler:
         return [DrawnPart(Stuff.SOIL, box((_PLATFORM_M, _PLATFORM_M, thick + 1.0), middle.tolist()))]
 
 
-def stands(
+def standing_places(
     work_m: FloatArray, ground: RecordedGround, distances_m: Sequence[float], asides_m: Sequence[float]
 ) -> Iterator[tuple[FloatArray, float]]:
     """Yield feet (3,), m, and turns of machines that look at their work (2,): behind the road and near ones first."""

@@ -101,13 +101,13 @@ class PreviewOutcome:
             standing_lines_m=_joined([moved[rows[body]] for body in shards.tolist() if body not in fallen]),
         )
 
-    def stored(self) -> dict[str, Any]:
+    def to_json(self) -> dict[str, Any]:
         """Return all values as JSON can hold them; lines to the mm."""
         values = {name: getattr(self, name) for name in self.__slots__}
         return values | {name: np.round(values[name], _DECIMALS).tolist() for name in _LINES}
 
     @classmethod
-    def of_stored(cls, values: Mapping[str, Any]) -> Self:
+    def of_json(cls, values: Mapping[str, Any]) -> Self:
         """Return an outcome from what `stored` gives."""
         lines = {name: np.array(values[name], float).reshape(-1, 3) for name in _LINES}
         return cls(**{**values, **lines})

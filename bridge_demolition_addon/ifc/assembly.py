@@ -22,11 +22,11 @@ from .added_supports import KIND, under_bearing, under_ends, with_one_pinned
 from .bearings import BearingElement, BearingTables, bearing_of, bearing_tables, seated, with_one_fixed
 from .bodies import Bodies
 from .contacts import NearbyMembers
-from .element_materials import Substance
+from .element_materials import ElementMaterial
 from .elements import Element
 from .file_digits import is_sound, writable
-from .gaps import WAYS, brought_near, closed_gaps
-from .haunches import grown_decks, with_haunches
+from .gaps import WAYS, close_small_gaps, closed_gaps
+from .haunches import decks_with_haunches, with_haunches
 from .kinds import ElementFacts
 from .loose_groups import BELOW_GROUND_M, loose_groups
 from .materials import MaterialTable
@@ -75,7 +75,7 @@ class Assembly:
     """
 
     elements: Sequence[Element]
-    made_of: Mapping[int, Substance]
+    made_of: Mapping[int, ElementMaterial]
     quantities: Mapping[int, Quantities]
     bodies: Bodies
     outcomes: dict[int, Outcome] = field(default_factory=dict)
@@ -260,8 +260,8 @@ class Assembly:
         bars = {member.name for number, member in members if number in self.bars}
         done, haunches = with_haunches([member for _, member in members])
         done, notes = closed_gaps(done, gap_m, bars)
-        done = grown_decks([member for _, member in members], done, bars)
-        done, more = brought_near(done, gap_m, bars)
+        done = decks_with_haunches([member for _, member in members], done, bars)
+        done, more = close_small_gaps(done, gap_m, bars)
         for (number, before), after in zip(members, done, strict=True):
             if after is not before:
                 self._before[number] = before.solid
@@ -309,11 +309,11 @@ class Assembly:
             why = "; ".join([f"between {above} and {below_name}, of which it is part", *filter(None, notes)])
             self.outcomes[number] = replace(self.outcomes[number], why=why)
 
-    def _add_support(self, solid: TriangleMesh, name: str, table: MaterialTable) -> tuple[Member, Substance]:
+    def _add_support(self, solid: TriangleMesh, name: str, table: MaterialTable) -> tuple[Member, ElementMaterial]:
         taken = {member.name for _, member in self.members()}
         name = next(text for text in chain([name], (f"{name} {n}" for n in count(2))) if text not in taken)
         row = given(table.row("concrete") or (table.materials[0] if table.materials else None))
-        substance = Substance("concrete", row.density_kg_m3, row)
+        substance = ElementMaterial("concrete", row.density_kg_m3, row)
         member = Member(name, KIND, solid, row.density_kg_m3)
         facts = ElementFacts(name=name, global_id="", classes=("",))
         why = "the file has nothing there: it stands on the ground and never moves"

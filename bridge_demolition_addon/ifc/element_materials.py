@@ -36,7 +36,7 @@ _ROLLED = (
 
 
 @dataclass(frozen=True, slots=True)
-class Substance:
+class ElementMaterial:
     """Material of an element: its name in the file or of the user's, its density in the file or table, and its row.
 
     The note says what the import has assumed.
@@ -52,7 +52,7 @@ class Substance:
 
 def substances(
     source: IfcSource, elements: Sequence[Element], table: MaterialTable, settings: ImportSettings
-) -> dict[int, Substance]:
+) -> dict[int, ElementMaterial]:
     """Return the material of each element by its number in the file.
 
     One that the table does not know is refused where this is strict. Elsewhere it is the material that the user says,
@@ -62,13 +62,13 @@ def substances(
     if settings.material is not None and table.row(settings.material) is None:
         raise IfcError(f'material is "{settings.material}", which {table_name} does not know')
     reader = _Reader(source, table, settings.material)
-    known: dict[int, Substance] = {}
+    known: dict[int, ElementMaterial] = {}
     unknown: dict[str, list[str]] = {}
     for element in elements:
-        substance = _said(element, table, table_name, settings) or reader.substance(element)
+        substance = _material_by_user(element, table, table_name, settings) or reader.substance(element)
         if isinstance(substance, str) and not settings.strict and element.kind != "bearing":
             substance = _assumed(element, substance, table) or substance
-        if isinstance(substance, Substance):
+        if isinstance(substance, ElementMaterial):
             known[element.entity.id()] = _weighed(substance, element, reader.units)
         elif element.kind != "bearing":  # which becomes part of what it lies on
             unknown.setdefault(substance, []).append(element.facts.name)
@@ -82,18 +82,20 @@ def substances(
     return known
 
 
-def _said(element: Element, table: MaterialTable, table_name: str, settings: ImportSettings) -> Substance | None:
+def _material_by_user(
+    element: Element, table: MaterialTable, table_name: str, settings: ImportSettings
+) -> ElementMaterial | None:
     """Return the material that the user says an element has; None where the user says none."""
     for pattern, name in settings.materials_of:
         if matches(pattern, element.names):
             row = table.row(name)
             if row is None:
                 raise IfcError(f'material of "{pattern}" is "{name}", which {table_name} does not know')
-            return Substance(name, row.density_kg_m3, row, "its material is as the user says", is_by_file=True)
+            return ElementMaterial(name, row.density_kg_m3, row, "its material is as the user says", is_by_file=True)
     return None
 
 
-def _assumed(element: Element, name: str, table: MaterialTable) -> Substance | None:
+def _assumed(element: Element, name: str, table: MaterialTable) -> ElementMaterial | None:
     """Return the material that an element of an unknown one is taken to have; None where the table lacks that too."""
     usual = "soil" if element.kind == "fill" else "concrete"
     assumed = "steel" if has_rolled_profile(element.entity) else usual
@@ -101,7 +103,7 @@ def _assumed(element: Element, name: str, table: MaterialTable) -> Substance | N
     if row is None:
         return None
     note = f"{name} is not known, taken for {assumed}" if name else f"the file gives no material: taken for {assumed}"
-    return Substance(name or assumed, row.density_kg_m3, row, note)
+    return ElementMaterial(name or assumed, row.density_kg_m3, row, note)
 
 
 def has_rolled_profile(entity: Any) -> bool:
@@ -110,7 +112,7 @@ def has_rolled_profile(entity: Any) -> bool:
     return any(profile is not None and any(profile.is_a(name) for name in _ROLLED) for profile in profiles)
 
 
-def _weighed(substance: Substance, element: Element, units: QuantityUnits) -> Substance:
+def _weighed(substance: ElementMaterial, element: Element, units: QuantityUnits) -> ElementMaterial:
     """Return a material with the density by the mass and volume that the file gives the element itself."""
     density = quantities_of(element.psets, units).density_kg_m3
     if density is None or not LEAST_KG_M3 <= density <= MOST_KG_M3 or substance.is_by_file:
@@ -137,20 +139,20 @@ class _Reader:
         """Units of quantities in the file."""
         return units_of(self.source.model)
 
-    def substance(self, element: Element) -> Substance | str:
+    def substance(self, element: Element) -> ElementMaterial | str:
         """Return the material of an element; its name where the table lacks it, empty for no material."""
         parts = _parts_of(self._material(element))
         if not parts and (name := material_name(element.psets)):
             row = self.table.row(name)
             if row is None:
                 return name
-            return Substance(name, row.density_kg_m3, row, f"its properties give {name} as its material")
+            return ElementMaterial(name, row.density_kg_m3, row, f"its properties give {name} as its material")
         if not parts:
             if self.otherwise and (row := self.table.row(self.otherwise)):
-                return Substance(self.otherwise, row.density_kg_m3, row, "the file gives no material")
+                return ElementMaterial(self.otherwise, row.density_kg_m3, row, "the file gives no material")
             return ""
         all_parts = [self._one(part) for part, _ in parts]
-        known = [part for part in all_parts if isinstance(part, Substance)]
+        known = [part for part in all_parts if isinstance(part, ElementMaterial)]
         if not known:
             return all_parts[0]
         shares = [share for _, share in parts if share is not None]
@@ -160,7 +162,9 @@ class _Reader:
         by_thickness = math.fsum(part.density_kg_m3 * share for part, share in zip(known, shares, strict=True))
         density = by_thickness / math.fsum(shares)
         main = known[shares.index(max(shares))]
-        return Substance(main.name, density, main.row, f"the density is the mean of {len(known)} layers by thickness")
+        return ElementMaterial(
+            main.name, density, main.row, f"the density is the mean of {len(known)} layers by thickness"
+        )
 
     def _material(self, element: Element) -> Any:
         """Return the material of an element, or else of the smallest assembly that has it as a part and has one."""
@@ -170,7 +174,7 @@ class _Reader:
                 return material
         return None
 
-    def _one(self, material: Any) -> Substance | str:
+    def _one(self, material: Any) -> ElementMaterial | str:
         name = (material.Name or "").strip()
         category = (getattr(material, "Category", None) or "").strip()
         row = self.table.row(name) or (self.table.row(category) if category else None)
@@ -185,11 +189,11 @@ class _Reader:
             note = f"{note}; {more}" if note else more
         density = self._density_of_file(material)
         if density is None:
-            return Substance(name, row.density_kg_m3, row, note)
+            return ElementMaterial(name, row.density_kg_m3, row, note)
         if not LEAST_KG_M3 <= density <= MOST_KG_M3:
             unlikely = f"the file gives {density:.4g} kg/m³ for {name}, so the density is that of the table"
-            return Substance(name, row.density_kg_m3, row, f"{note}; {unlikely}" if note else unlikely)
-        return Substance(name, density, row, note, is_by_file=True)
+            return ElementMaterial(name, row.density_kg_m3, row, f"{note}; {unlikely}" if note else unlikely)
+        return ElementMaterial(name, density, row, note, is_by_file=True)
 
     def _strength_of_file(self, material: Any) -> float | None:
         """Return the compressive strength that the file gives a concrete, N/mm², if it is one that concrete has."""

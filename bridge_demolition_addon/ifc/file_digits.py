@@ -6,7 +6,7 @@ from ..engineering.geometry.mesh import TriangleMesh
 from ..engineering.geometry.repair import repaired_solid
 from ..engineering.geometry.solids import from_manifold, to_manifold
 from ..errors import GeometryError
-from .gaps import cuts_well
+from .gaps import keeps_volume_when_cut
 
 _DIGITS = 8
 """Of coordinates in m, that OBJ files have."""
@@ -31,7 +31,7 @@ def is_sound(solid: TriangleMesh) -> bool:
     """Return whether a solid needs no repair with the digits that a file holds, and can be cut."""
     try:
         rounded = _rounded(solid)
-        return not repaired_solid(rounded, "").repairs and cuts_well(rounded)
+        return not repaired_solid(rounded, "").repairs and keeps_volume_when_cut(rounded)
     except GeometryError:
         return False
 

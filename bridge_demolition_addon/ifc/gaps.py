@@ -110,10 +110,10 @@ def closed_gaps(members: Sequence[Member], gap_m: float, bars: Collection[str] =
     return done, notes
 
 
-def brought_near(
+def close_small_gaps(
     members: Sequence[Member], gap_m: float, staying: Collection[str] = ()
 ) -> tuple[list[Member], list[str]]:
-    """Return members of which those that hardly touch what they lie beside are moved against it, and notes on them.
+    """Return members moved against what they hardly touch, and notes on them.
 
     Such as an edge beam along a curved deck: both have chords, and meet at some corners only. Those of names that are
     `staying` are not moved.
@@ -170,8 +170,8 @@ def _nearly_under(members: Sequence[Member], upper: int, gap_m: float) -> list[i
     return found
 
 
-def cuts_well(solid: TriangleMesh) -> bool:
-    """Return whether the parts of a solid have its volume when it is cut: what crosses itself somewhere has not."""
+def keeps_volume_when_cut(solid: TriangleMesh) -> bool:
+    """Return whether the parts of a solid have its volume when it is cut: False where the mesh intersects itself."""
     whole = to_manifold(solid)
     for normal in _CUTTING:
         levels = solid.vertices @ np.array(normal)

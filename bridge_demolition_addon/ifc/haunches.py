@@ -84,8 +84,8 @@ def with_haunches(members: Sequence[Member]) -> tuple[list[Member], list[str]]:
     return done, notes
 
 
-def grown_decks(before: Sequence[Member], after: Sequence[Member], bars: Collection[str]) -> list[Member]:
-    """Return members of which bars are as they were, and what bars have grown to touch a deck belongs to that.
+def decks_with_haunches(before: Sequence[Member], after: Sequence[Member], bars: Collection[str]) -> list[Member]:
+    """Return members where the concrete between bars and deck belongs to the deck.
 
     A bar of steel has one section: its haunch is of its deck's concrete.
     """

@@ -16,9 +16,9 @@ _LIGHT = 0.25
 
 
 def leave_out_light_bracing(assembly: Assembly, shards: int) -> None:
-    """Leave out bracing that is much lighter than one of so many shards, and put its mass on what it braces.
+    """Leave out bracing that is much lighter than a mean shard, and put its mass on what it braces.
 
-    Between shards a hundred times as heavy it would say nothing of the bridge, and throw its pieces about.
+    Bracing far lighter than its neighbours only adds noise to the solver.
     """
     members, outcomes = [one for one in assembly.members() if one[0] not in assembly.bars], assembly.outcomes
     limit_kg = _LIGHT * math.fsum(member.mass_kg for _, member in members) / shards

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from ..engineering.geometry.mesh import TriangleMesh
 from ..model.bridge.member import Member
 from ..model.schema import given
-from .element_materials import Substance
+from .element_materials import ElementMaterial
 from .kinds import ElementFacts
 
 MEMBER, CONNECTION, LEFT_OUT, ADDED, BAR = "member", "connection", "left out", "added", "bar"
@@ -25,7 +25,7 @@ class Outcome:
 
     facts: ElementFacts
     member: Member | None
-    substance: Substance | None
+    substance: ElementMaterial | None
     became: str
     why: str
     mesh: TriangleMesh | None = None
@@ -33,6 +33,6 @@ class Outcome:
     file_mass_kg: float | None = None
 
     @property
-    def part(self) -> tuple[Member, Substance]:
+    def part(self) -> tuple[Member, ElementMaterial]:
         """Member and substance of an element that is not left out."""
         return given(self.member), given(self.substance)

@@ -51,7 +51,7 @@ def bridges_in(source: IfcSource, elements: Sequence[Element]) -> list[BridgeInF
 
 @dataclass(frozen=True, slots=True)
 class ChosenElements:
-    """Elements of which those of other bridges are left out, the name of the one that is taken, and notes on that."""
+    """Elements of the chosen bridge, its name, and notes on what was left out."""
 
     elements: tuple[Element, ...]
     title: str = ""

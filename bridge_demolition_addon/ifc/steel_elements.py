@@ -25,7 +25,7 @@ from ..engineering.steelwork.grades import GRADES
 from ..engineering.steelwork.named_sections import PlacedSection, section_of_outline
 from ..engineering.steelwork.sections import SteelSection
 from ..errors import GeometryError
-from .element_materials import Substance
+from .element_materials import ElementMaterial
 from .elements import NO_BODIES, Element
 from .library import library
 from .placement import Placement
@@ -137,7 +137,7 @@ def steel_elements(
     source: IfcSource,
     elements: Sequence[Element],
     solids: Mapping[int, TriangleMesh],
-    made_of: Mapping[int, Substance],
+    made_of: Mapping[int, ElementMaterial],
     placement: Placement,
 ) -> SteelElements:
     """Return which elements are bars of steel.
@@ -159,7 +159,7 @@ def steel_elements(
     return SteelElements(bars, refused)
 
 
-def _may_be(element: Element, substance: Substance | None) -> bool:
+def _may_be(element: Element, substance: ElementMaterial | None) -> bool:
     of_class = not set(_CLASSES).isdisjoint(element.facts.classes)
     return bool(
         of_class and element.kind not in _NO_BARS and substance is not None and substance.row.strength_name == STEEL

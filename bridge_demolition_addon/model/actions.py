@@ -192,10 +192,7 @@ class PlannedAction(Table):
         return self.begins_s(plan)
 
     def scaled_in_time(self, factor: float) -> Self:
-        """Return it where all frames last longer by a factor: what is animated keeps its frames, and its times change.
-
-        What happens at a simulated time, whatever the frame, stays as it is.
-        """
+        """Scale the times of animated motion by a factor, as in slow motion; physical times stay."""
         return self
 
     def targets(self) -> Iterator[tuple[str, Place]]:

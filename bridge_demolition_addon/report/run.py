@@ -129,7 +129,7 @@ def run_document(
 def _zone_loads(run: ReportedRun) -> Sequence[ZoneLoad]:
     """Return what blast zones carried at rest, where the run knew."""
     stored = run.summary.values.get("stability") if run.summary else None
-    return Stability.of_stored(stored).zones if stored else ()
+    return Stability.of_json(stored).zones if stored else ()
 
 
 def _work_out_stages(run: ReportedRun, target: Path, progress: Progress) -> None:

@@ -96,7 +96,7 @@ def run_scenario(
         keep_scenario(lock.folder, scenario)
         scene = _empty_scene(scenario.title)
         shards = build_demolition(scene, scenario, model)
-        keep_stability(scene, stability.stored())
+        keep_stability(scene, stability.to_json())
         _prepare_view(scene, scenario, model, shards)
         times = {"building": lap_s()}
         progress.stage(f"simulating {len(model.shards)} shards and {len(model.connections)} connections")

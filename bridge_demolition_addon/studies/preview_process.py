@@ -135,6 +135,6 @@ class PreviewProcess:
 
 def _preview_of(answer: dict[str, Any]) -> Preview:
     if "outcome" in answer:
-        return Preview(PreviewOutcome.of_stored(answer["outcome"]), answer["is_over"], answer.get("left_s"))
+        return Preview(PreviewOutcome.of_json(answer["outcome"]), answer["is_over"], answer.get("left_s"))
     assert answer["status"] != DONE
     return Preview(None, True, reason=answer["reason"])

@@ -150,9 +150,9 @@ def play(service: RunService, models: KeptModels, request: Mapping[str, Any], fo
             raise _SupersededError
         if time.monotonic() < answer_at_s or not playing.recording.recorded_frames:
             return
-        so_far = {"outcome": outcome_of(playing.recording.results()).stored(), "left_s": playing.left_s}
+        so_far = {"outcome": outcome_of(playing.recording.results()).to_json(), "left_s": playing.left_s}
         service.say({"number": request["number"], "is_over": False, "status": "running", **so_far})
         answer_at_s = time.monotonic() + _NEXT_ANSWERS_S
 
     with motion_run(scenario, model, folder, look_on) as (results, _):
-        return {"outcome": outcome_of(results).stored()}
+        return {"outcome": outcome_of(results).to_json()}

@@ -57,7 +57,7 @@ def letters_of(context: bpy.types.Context) -> int:
 def draw_sentence(layout: bpy.types.UILayout, context: bpy.types.Context, text: str, icon: str = "ERROR") -> None:
     """Draw a sentence, translated where it is in the tables, on as many lines as it needs, as Blender cuts them off."""
     column, below = layout.column(align=True), "NONE" if icon == "NONE" else "BLANK1"
-    for number, line in enumerate(lines_of(translated(text), letters_of(context))):
+    for number, line in enumerate(wrap(translated(text), letters_of(context))):
         column.label(text=line, icon=below if number else icon, translate=False)
 
 
@@ -70,8 +70,8 @@ def draw_of_one_cut(layout: bpy.types.UILayout, context: bpy.types.Context) -> N
     draw_sentence(layout, context, text, icon="INFO")
 
 
-def lines_of(text: str, letters: int) -> list[str]:
-    """Return a text on lines of so many letters; those of Chinese are twice as wide as others."""
+def wrap(text: str, letters: int) -> list[str]:
+    """Wrap a text at a width in letters; those of Chinese are twice as wide as others."""
     return textwrap.wrap(text, max(letters * len(text) // max(width_of(text), 1), 1))
 
 

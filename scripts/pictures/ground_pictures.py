@@ -53,7 +53,7 @@ def borne(bed: Footings, settled_m: float, turn_rad: float = 0.0) -> np.ndarray:
     cosine, sine = np.cos(turn_rad), np.sin(turn_rad)
     rotation = both(np.array([[cosine, 0.0, sine], [0.0, 1.0, 0.0], [-sine, 0.0, cosine]]))
     positions = np.array([[0.0, 0.0, -settled_m], [0.0, 0.0, 0.0]]).T
-    bed.settle(positions, rotation)
+    bed.update_plastic_state(positions, rotation)
     return bed.in_substep(np.zeros(1, int), positions, rotation, SUBSTEP_S).loads(AT_REST)[0][:, 0] / SUBSTEP_S
 
 

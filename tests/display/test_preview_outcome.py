@@ -40,8 +40,8 @@ def test_debris_is_outlined_on_the_ground(outcome):
 
 
 def test_it_goes_as_text_from_process_to_process(outcome):
-    again = PreviewOutcome.of_stored(json.loads(json.dumps(outcome.stored())))
-    assert again.stored() == outcome.stored()
+    again = PreviewOutcome.of_json(json.loads(json.dumps(outcome.to_json())))
+    assert again.to_json() == outcome.to_json()
     np.testing.assert_allclose(again.debris_lines_m, outcome.debris_lines_m, atol=5e-4)
     assert again.standing == outcome.standing
 

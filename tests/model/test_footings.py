@@ -61,7 +61,7 @@ class Block:
         for _ in range(round(seconds / SUBSTEP_S)):
             self.velocities *= 0.8
             self.velocities[:3, 0] += impulse / MASS_KG
-            self.structure.settle(self.positions, self.rotations)
+            self.structure.update_plastic_state(self.positions, self.rotations)
             states = StepInput(self.positions, self.rotations, self.velocities, np.zeros(2, bool))
             step = self.structure.step(states, np.ones(1, bool), SUBSTEP_S)
             self.velocities[:3, 0] += step.of_bodies[:3, 0] / MASS_KG

@@ -24,7 +24,7 @@ from bridge_demolition_addon.engineering.core.calls import answer_of, call
 from bridge_demolition_addon.engineering.drilled_charges.cages import BareBars, Cages
 from bridge_demolition_addon.engineering.elasticity.cracks import Cracks, ExpectedCracks, corner_positions
 from bridge_demolition_addon.engineering.elasticity.equations import RigidBodies
-from bridge_demolition_addon.engineering.elasticity.joint_forces import stored, velocities_alone
+from bridge_demolition_addon.engineering.elasticity.joint_forces import stored_energies, velocities_alone
 from bridge_demolition_addon.engineering.elasticity.joint_rows import JointFrames
 from bridge_demolition_addon.engineering.elasticity.sparse_system import BlockSystem
 from bridge_demolition_addon.engineering.elasticity.spring_law import PressedSprings
@@ -106,7 +106,7 @@ class Cases:
         bodies = self.count(6)
         moving = [self.numbers(6, bodies), self.numbers(6, bodies), self.numbers(bodies)]
         velocities_alone(*moving, self.numbers(3, 3, bodies), self.numbers(6, bodies), 0.01)
-        stored(self.numbers(6, 6, bodies), self.numbers(6, bodies))
+        stored_energies(self.numbers(6, 6, bodies), self.numbers(6, bodies))
 
     def of_equations(self):
         """No connection, repeated pairs, a body with itself, and bodies whose motion is known."""
@@ -139,7 +139,7 @@ class Cases:
     def of_cracks(self):
         bodies, connections = self.count(6), self.count(8)
         cracks, places = self.cracks(bodies, connections), self.places(bodies)
-        cracks.settle(*places)
+        cracks.update_plastic_state(*places)
         cracks.grip(*places)
         cracks.state(*places)
         chosen = self.among(self.count(4), len(cracks))
@@ -199,7 +199,7 @@ class Cases:
             structure.stand_bare(cages)
             start = StepInput(*places, self.numbers(6, bodies), np.zeros(bodies, bool))
             structure.step(start, np.ones(connections, bool), 0.002)
-            structure.settle(*places)
+            structure.update_plastic_state(*places)
             structure.end_substep()
         term = cages.in_substep(self.among(self.count(4), count), *places, 0.002)
         forces_and_tangents(term, self.rng.normal(size=(1, term.gaps)))
@@ -260,7 +260,7 @@ class Cases:
             pairs, ends = [self.rng.permutation(20)[: self.count(5)] for _ in range(substeps)], [0]
             ends += np.cumsum([len(own) for own in pairs]).tolist()
             rows = np.concatenate(pairs)
-            touches.returned(self.odd(rows), self.numbers(len(rows)), self.odd(np.array(ends)))
+            touches.returned_energies(self.odd(rows), self.numbers(len(rows)), self.odd(np.array(ends)))
             touches.pass_over(int(self.rng.choice([0, 1, 100])))
 
     def of_blast(self):
@@ -292,7 +292,7 @@ class Cases:
             intact[cracks.rows] = False
         for _ in range(3):
             asleep = np.full(bodies, bool(rng.integers(4) == 0))
-            structure.settle(*places)
+            structure.update_plastic_state(*places)
             start, substep_s = (
                 StepInput(*places, self.numbers(6, bodies), asleep),
                 float(rng.choice([1e-9, 0.002, 1.0])),

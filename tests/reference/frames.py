@@ -114,7 +114,7 @@ class ReferenceTouches:
         """Let sub-steps go by in which no pair does work."""
         self._substep += substeps
 
-    def returned(self, pairs: np.ndarray, work_j: np.ndarray, ends: np.ndarray) -> np.ndarray:
+    def returned_energies(self, pairs: np.ndarray, work_j: np.ndarray, ends: np.ndarray) -> np.ndarray:
         """Return how much of the work (k,) is given back of what was taken before."""
         returned_j = np.zeros_like(work_j)
         for start, end in itertools.pairwise(ends.tolist()):

@@ -83,7 +83,7 @@ def test_its_outcome_is_that_of_the_run_of_the_same_shards_and_seed(kept, blende
     assert shown.shards == SHARDS
     assert shown.fallen == len(debris.bodies) > 0
     assert shown.area_m2 == debris.area.area() > 0.0
-    assert shown.stored() == expected.stored()
+    assert shown.to_json() == expected.to_json()
     corners = np.concatenate([np.asarray(ring) for ring in without_gaps(debris.area, GAP_M).to_polygons()])
     np.testing.assert_allclose(np.sort(shown.debris_lines_m[::2, 0]), np.sort(corners[:, 0]), atol=5.1e-4)
 

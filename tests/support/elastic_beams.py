@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bridge_demolition_addon.engineering.elasticity.equations import RigidBodies, stressed
+from bridge_demolition_addon.engineering.elasticity.equations import RigidBodies, spring_forces
 from bridge_demolition_addon.engineering.elasticity.equilibrium import Equilibrium, equilibrium
 from bridge_demolition_addon.engineering.elasticity.joint_rows import JointFrames, joint_positions
 from bridge_demolition_addon.engineering.elasticity.section_stiffness import ElasticModuli, whole_section_stiffness
@@ -37,7 +37,7 @@ class ElasticBodies:
         """Forces and moments (6, m) in the rows of the connections there, pulling the first body to the second."""
         before = joint_positions(self.frames, self.positions_m, self.rotations).deformations()
         after = joint_positions(self.frames, rest.positions_m, rest.rotations).deformations()
-        return stressed(self.stiffness, after - before)
+        return spring_forces(self.stiffness, after - before)
 
 
 def bodies(

@@ -45,7 +45,7 @@ def test_all_lines_of_a_sentence_begin_below_each_other(blender, icon, below):
     ],
 )
 def test_lines_are_as_wide_as_the_sidebar_in_any_script(text, letters, lines):
-    from bridge_demolition_addon.ui.sidebar import lines_of, width_of
+    from bridge_demolition_addon.ui.sidebar import width_of, wrap
 
-    assert lines_of(text, letters) == lines
+    assert wrap(text, letters) == lines
     assert all(width_of(line) <= letters for line in lines)

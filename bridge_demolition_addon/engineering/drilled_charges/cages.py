@@ -181,7 +181,7 @@ class Cages:
         gone = np.isin(self._groups.first, bodies) | np.isin(self._groups.second, bodies)
         self._groups.holds[gone] = False
 
-    def settle(self, positions_m: FloatArray, rotations: FloatArray) -> None:
+    def update_plastic_state(self, positions_m: FloatArray, rotations: FloatArray) -> None:
         """Take over, before a sub-step, what has yielded, folded or ruptured by now."""
         groups = self._groups
         line, *_ = groups.lines(positions_m, rotations)

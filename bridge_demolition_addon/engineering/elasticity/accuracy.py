@@ -33,10 +33,10 @@ def spacing_m(volume_m3: float, count: int, thickness_m: float, width_m: float) 
 
 
 def expected_deviation(shards_along: float) -> float:
-    """Return by how much results are off at most, as a share, with so many shards along the members that span."""
+    """Return the largest relative error of results for a number of shards along the members that span."""
     return next(share for most, share in _MEASURED if shards_along <= most)
 
 
 def expected_corner_deviation(shards_along: float) -> float:
-    """Return by how much reactions at acute corners of a skewed bridge are off at most, as a share."""
+    """Return the largest relative error of reactions at acute corners of a skewed bridge."""
     return next(share for most, share in _MEASURED_AT_ACUTE_CORNERS if shards_along <= most)

@@ -144,7 +144,7 @@ class Bearings:
         self._gone = np.zeros(len(self.rows), bool)
         self._remembered = np.full((12, len(of)), np.nan)
 
-    def settle(self, positions_m: FloatArray, rotations: FloatArray) -> None:
+    def update_plastic_state(self, positions_m: FloatArray, rotations: FloatArray) -> None:
         """Take over, before a sub-step, how far springs have slid, and which bodies have left each other."""
         gaps = self._positions.gaps(positions_m, rotations)[0]
         unknown = np.isnan(self._pressed_n)

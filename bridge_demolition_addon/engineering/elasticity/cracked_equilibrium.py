@@ -122,7 +122,7 @@ class CrackedStructure:
             structure.stand_bare(self.bare_bars)
         self._falls = False
         for _ in range(_MOST_STEPS):
-            ruptured = structure.settle(self.positions_m, self.rotations)
+            ruptured = structure.update_plastic_state(self.positions_m, self.rotations)
             self._let_go()
             broke, step = self._broken_in_step(structure, self._with_tendons(accelerations), overloaded, tear, pause)
             self.loads = self._loads_of(step)
@@ -138,7 +138,9 @@ class CrackedStructure:
 
     def _tendons_rupture(self) -> bool:
         """Cut tendons across cracks that are too wide at rest, and return whether there are some."""
-        return self._tendons is not None and bool(self._tendons.settle(self.positions_m, self.rotations).any())
+        return self._tendons is not None and bool(
+            self._tendons.update_plastic_state(self.positions_m, self.rotations).any()
+        )
 
     def _with_tendons(self, accelerations: FloatArray) -> FloatArray:
         """Add to accelerations (6, n) those by the tendons that have not ruptured."""

@@ -141,7 +141,7 @@ class Cracks:
         """Return the stiffness (r,) with which the sides of connections press on each other at each corner."""
         return self._pressed_n_m[rows]
 
-    def settle(self, positions_m: FloatArray, rotations: FloatArray) -> IntArray:
+    def update_plastic_state(self, positions_m: FloatArray, rotations: FloatArray) -> IntArray:
         """Take over how far bars have yielded by now; return the connections (d,) that no bar replaces any more."""
         holds = np.empty(len(self.rows), bool)
         call("bda_cracks_settle", self._in_core(), Places.of(positions_m, rotations), holds)

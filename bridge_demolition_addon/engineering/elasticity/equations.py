@@ -63,7 +63,7 @@ def connected_parts(moves: BoolArray, first: IntArray, second: IntArray) -> IntA
     return np.where(moves, np.unique(lowest, return_inverse=True)[1], -1)
 
 
-def stressed(stiffness: FloatArray, strains: FloatArray) -> FloatArray:
+def spring_forces(stiffness: FloatArray, strains: FloatArray) -> FloatArray:
     """Return the amounts (6, m) in rows, by stiffness (6, 6, m), of deformations (6, m)."""
     amounts: FloatArray = stiffness[:, 0] * strains[0]
     for column in range(1, 6):

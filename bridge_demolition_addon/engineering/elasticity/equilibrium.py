@@ -11,7 +11,7 @@ import numpy as np
 from ..arrays import BoolArray, FloatArray, IntArray
 from ..geometry.rotations import rotated
 from .bearings import Bearings
-from .equations import RigidBodies, connected_parts, stiffness_blocks, stressed, summed_on_bodies, without
+from .equations import RigidBodies, connected_parts, spring_forces, stiffness_blocks, summed_on_bodies, without
 from .frequencies import SLACK, first_frequency
 from .joint_rows import JointFrames, JointRows, components_first, components_last, joint_positions
 from .sparse_system import BlockSystem
@@ -101,7 +101,7 @@ def equilibrium(
         elif bearings is not None and (is_bearing := np.isin(rows, bearings.rows)).any():
             # What topples off its bearings leaves standing what they stood on.
             parts += _supported_parts(bodies.moves, frames, rows[~is_bearing])
-    loads = stressed(stiffness, joint_positions(frames, positions_m, rotations).deformations() - unloaded)
+    loads = spring_forces(stiffness, joint_positions(frames, positions_m, rotations).deformations() - unloaded)
     if bearings is not None:
         loads[:, bearings.rows] = bearings.loads_at_rest(positions_m, rotations)
     return Equilibrium(positions_m, rotations, held, min(frequencies, default=0.0), loads)
@@ -117,7 +117,7 @@ def _supported_parts(moves: BoolArray, frames: JointFrames, rows: IntArray) -> l
     return [(np.flatnonzero(label == part), rows[of_connections == part]) for part in parts]
 
 
-class _Part:
+class _ConnectedComponent:
     """Connected bodies `members` (b,), held by connections `rows` of all, on which weight and loads (6, n) act."""
 
     def __init__(
@@ -142,7 +142,7 @@ class _Part:
         """Return the forces and moments (6, b) that are left on the bodies at these positions."""
         positions = joint_positions(self._frames, positions_m, rotations)
         self._rows = positions.rows()
-        holding = self._rows.loads(stressed(self._stiffness, positions.deformations() - self._unloaded))
+        holding = self._rows.loads(spring_forces(self._stiffness, positions.deformations() - self._unloaded))
         if self._pads is not None:
             self._pads.add_loads(holding, positions_m, rotations)
         on_bodies = summed_on_bodies(self._frames.first, self._frames.second, holding, len(self._bodies))
@@ -209,7 +209,7 @@ def _part_at_rest(
     weights[:3, members] = bodies.masses_kg[members] * gravity_m_s2[:, None]
     if loads is not None:
         weights[:, members] += loads[:, members]
-    part = _Part(members, frames, stiffness, bodies, weights, pads, tendons)
+    part = _ConnectedComponent(members, frames, stiffness, bodies, weights, pads, tendons)
     solutions, balanced = (_SOLUTIONS, _AT_REST) if pads is None else (_SOLUTIONS_ON_BEARINGS, _AT_REST_ON_BEARINGS)
     settled = _Settled()
     for _ in range(solutions):
@@ -269,7 +269,7 @@ def _moved(positions_m: FloatArray, rotations: FloatArray, step: FloatArray) -> 
 
 
 def _share_of_step(
-    part: _Part, positions_m: FloatArray, rotations: FloatArray, step: FloatArray, members: IntArray
+    part: _ConnectedComponent, positions_m: FloatArray, rotations: FloatArray, step: FloatArray, members: IntArray
 ) -> float:
     """Return the share of a step (6, n) up to which the forces that are left do work: beyond it energy grows again.
 

@@ -59,7 +59,7 @@ def put_loads(
         loads[:, numbers] = np.where(on_first[numbers], of_first, of_second) / substep_s
 
 
-def stored(stiffness: FloatArray, strains: FloatArray) -> FloatArray:
+def stored_energies(stiffness: FloatArray, strains: FloatArray) -> FloatArray:
     """Return the energy (k,) in connections of stiffness (6, 6, k) with strains (6, k)."""
     count = strains.shape[1]
     energies = np.empty(count)

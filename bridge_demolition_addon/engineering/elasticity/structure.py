@@ -23,7 +23,7 @@ from .crack_state import CrackState
 from .cracks import Cracks
 from .equations import RigidBodies, connected_parts, stiffness_blocks, without
 from .frequencies import SLACK, first_frequency
-from .joint_forces import stored
+from .joint_forces import stored_energies
 from .joint_rows import JointFrames, joint_positions
 from .kept_joints import KeptJoints
 from .sparse_system import BlockSystem
@@ -67,8 +67,8 @@ class SpringLaw(Protocol):
     def rows(self) -> IntArray:
         """Their numbers (c,) among connections."""
 
-    def settle(self, positions_m: FloatArray, rotations: FloatArray) -> None:
-        """Take over, before a sub-step, what has yielded for good, at positions (3, n) and rotations (3, 3, n)."""
+    def update_plastic_state(self, positions_m: FloatArray, rotations: FloatArray) -> None:
+        """Update before a sub-step what has yielded for good, at positions (3, n) and rotations (3, 3, n)."""
 
     def in_substep(self, chosen: IntArray, positions_m: FloatArray, rotations: FloatArray, substep_s: float) -> Term:
         """Return what some of them (c,) do in a sub-step of a length in s."""
@@ -95,7 +95,9 @@ class BareBarLaw(SpringLaw, Protocol):
         """Return the forces (g,) along them, above 0 in tension, with bodies at positions and in rotations."""
 
 
-class _Part:
+class _ConnectedComponent:
+    """Bodies that connections hold together, and their equations."""
+
     def __init__(self, bodies: IntArray, connections: IntArray, first: IntArray, second: IntArray):
         self.bodies, self.connections = bodies, connections
         self.first, self.second = first, second
@@ -159,7 +161,7 @@ class ElasticStructure:
         self._intact = np.ones(len(frames), bool)
         self._substep_s = 0.0
         self._cracks, self._has_broken = cracks, False
-        self._parts: list[_Part] = []
+        self._parts: list[_ConnectedComponent] = []
         self._part_of_body = np.full(self._count, -1)
         self._partition()
         for part in self._parts:
@@ -269,22 +271,22 @@ class ElasticStructure:
         chosen = self._joints.choose(np.flatnonzero(self._intact))
         strains = self._joints.deformations(chosen, positions_m, rotations) - chosen.offsets
         stored_j = np.zeros(len(self._frames))
-        stored_j[chosen.numbers] = stored(chosen.stiffness, strains)
+        stored_j[chosen.numbers] = stored_energies(chosen.stiffness, strains)
         if cracks is not None:
             stored_j[cracks.rows] = cracks.stored_j
         for law in self._springs:
             stored_j[law.rows] = law.stored_j(positions_m, rotations) * self._intact[law.rows]
         return stored_j
 
-    def settle(self, positions_m: FloatArray, rotations: FloatArray) -> IntArray:
+    def update_plastic_state(self, positions_m: FloatArray, rotations: FloatArray) -> IntArray:
         """Take over, before a sub-step, how far springs and bars have yielded; return what ruptured (d,), let go."""
         for law in self._springs:
-            law.settle(positions_m, rotations)
+            law.update_plastic_state(positions_m, rotations)
         if self._bare_bars is not None:
-            self._bare_bars.settle(positions_m, rotations)
+            self._bare_bars.update_plastic_state(positions_m, rotations)
         if self._cracks is None or not len(self._cracks):
             return np.zeros(0, int)
-        gone = self._cracks.settle(positions_m, rotations)
+        gone = self._cracks.update_plastic_state(positions_m, rotations)
         if len(gone):
             self._stale[self.part_of_connection[gone]] = True
             self._stale[-1] = False
@@ -332,7 +334,7 @@ class ElasticStructure:
                 self._parts.append(parts[before])  # with its equations laid out
             else:
                 ends = within[first[rows]], within[second[rows]]
-                self._parts.append(_Part(bodies, connections, *ends))
+                self._parts.append(_ConnectedComponent(bodies, connections, *ends))
                 self._parts[-1].has_lost = True
             within[bodies] = -1
         # One more, the last, for what belongs to no part: -1.

@@ -158,7 +158,7 @@ class TendonForces:
         """Return the energy (t,) in each tendon."""
         return np.array([self._steel.stored_j(tendon, self._cuts_of(tendon)) for tendon in range(self._tendons)])
 
-    def settle(self, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
+    def update_plastic_state(self, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
         """Cut tendons where cracks have opened so far that they rupture; return the energy (t,) that they let go."""
         holds = np.flatnonzero((self.shares > 0.0) & np.isfinite(self.passages.openings_m))
         if not len(holds):

@@ -70,7 +70,7 @@ class Footings:
         self._unloaded = np.zeros((3, len(of)))
         self._remembered = np.full((12, len(of)), np.nan)
 
-    def settle(self, positions_m: FloatArray, rotations: FloatArray) -> None:
+    def update_plastic_state(self, positions_m: FloatArray, rotations: FloatArray) -> None:
         """Take over, before a sub-step, how far springs have settled or slid for good."""
         gaps = self._positions.gaps(positions_m, rotations)[0]
         soil = self._soil

@@ -50,7 +50,7 @@ class Touches:
         """Let sub-steps go by in which no pair does work."""
         self._substep += substeps
 
-    def returned(self, pairs: IntArray, work_j: FloatArray, ends: IntArray) -> FloatArray:
+    def returned_energies(self, pairs: IntArray, work_j: FloatArray, ends: IntArray) -> FloatArray:
         """Return how much of the work (k,) is given back of what was taken before.
 
         Parameters

@@ -242,7 +242,7 @@ class WorkAccumulator:
             ends = np.searchsorted(first // bodies, np.arange(len(free) + 1))
             total[~(is_free[first] | is_free[second])] = 0.0
             lower, upper = np.minimum(first, second) % bodies, np.maximum(first, second) % bodies
-            returned_j = self._touches.returned(bodies * lower + upper, total, ends)
+            returned_j = self._touches.returned_energies(bodies * lower + upper, total, ends)
         shared = shared_work(total, returned_j, on_first, on_second, first, second, is_free)
         starts = np.searchsorted(shared.rows, ends)
         return PairWork(

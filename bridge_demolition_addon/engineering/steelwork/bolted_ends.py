@@ -141,23 +141,23 @@ class BoltedEnd:
         """About which of y and z (0, 1) that moment is."""
         return 1 - self.part.along
 
-    def leverage(self, yield_pa: float, share: float) -> tuple[float, float]:
-        """Return by how much more than in axial force it resists in bending about y and z, by what the bar resists.
+    def bending_to_axial_ratio(self, yield_pa: float, share: float) -> tuple[float, float]:
+        """Return its resistance in bending about y and z over that in axial force, by those of the bar.
 
         `share` is its resistance in axial force by that of the bar. In the plane of the gusset the pattern resists, and
         the section between holes; out of it the end is taken to be as weak as along the bar. One bolt resists no
         moment: the bar turns about it.
         """
-        leverage, axis = [1.0, 1.0], self.bending_axis
+        bending_to_axial_ratio, axis = [1.0, 1.0], self.bending_axis
         plastic_nm = float(self.section.shape.plastic_moduli_m3[axis]) * yield_pa
         by_holes = self.bolts.net_section_n(self.section, self.bar.ultimate_pa) / (self.section.area_m2 * yield_pa)
         if self.moment_nm > 0.0:
-            leverage[axis] = min(self.moment_nm / plastic_nm, by_holes) / share
-        return leverage[0], leverage[1]
+            bending_to_axial_ratio[axis] = min(self.moment_nm / plastic_nm, by_holes) / share
+        return bending_to_axial_ratio[0], bending_to_axial_ratio[1]
 
     def strength(self, yield_pa: float, share: float) -> Strength:
         """Return the strength of its joint, which resists a share of the axial force of the bar."""
-        whole = plastic_strength(self.section, yield_pa, self.leverage(yield_pa, share))
+        whole = plastic_strength(self.section, yield_pa, self.bending_to_axial_ratio(yield_pa, share))
         by_bolts_pa = self.shear_n / self.section.area_m2
         return replace(whole.times(share), shear_pa=min(float(whole.shear_pa), by_bolts_pa))
 

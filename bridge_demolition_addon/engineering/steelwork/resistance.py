@@ -53,26 +53,30 @@ def section_hinge(section: SteelSection, yield_pa: float, most_m: float = math.i
     return SectionHinge(section.area_m2 * yield_pa, yield_strain, hardening, RUPTURE_STRAIN, opening_m)
 
 
-def plastic_second_moments(section: SteelSection, leverage: tuple[float, float] = (1.0, 1.0)) -> FloatArray:
+def plastic_second_moments(
+    section: SteelSection, bending_to_axial_ratio: tuple[float, float] = (1.0, 1.0)
+) -> FloatArray:
     """Return second moments (2, 2) of the rectangle that stands for a section in what breaks it.
 
-    `leverage` is by how much more it resists in bending about y and z than in axial force, by the resistances of the
+    `bending_to_axial_ratio` is its resistance in bending about y and z over that in axial force, by those of the
     section. The rectangle has the area of the section, and elastic moduli as large as the plastic ones of that:
     W² = I A / 3 for any rectangle. So axial force and bending about both axes together use N / N_pl + M_y / M_pl,y +
     M_z / M_pl,z, the linear rule of EN 1993-1-1:2005, 6.2.1 (7).
     """
-    moduli = section.shape.plastic_moduli_m3 * np.array(leverage)
+    moduli = section.shape.plastic_moduli_m3 * np.array(bending_to_axial_ratio)
     return np.asarray(np.diag(3.0 * np.square(moduli) / section.area_m2))
 
 
-def plastic_strength(section: SteelSection, yield_pa: float, leverage: tuple[float, float] = (1.0, 1.0)) -> Strength:
+def plastic_strength(
+    section: SteelSection, yield_pa: float, bending_to_axial_ratio: tuple[float, float] = (1.0, 1.0)
+) -> Strength:
     """Return the strength with which that rectangle resists as the section does, as `mechanics.strength` judges it.
 
     Shear resists by the smaller of the two areas that yield, torsion by all plates at yield.
     """
     shear_pa = yield_pa / math.sqrt(3.0)
     area = section.area_m2
-    rectangle = rectangular_sections(np.array([area]), plastic_second_moments(section, leverage)[None])
+    rectangle = rectangular_sections(np.array([area]), plastic_second_moments(section, bending_to_axial_ratio)[None])
     by_torsion = section.torsion_modulus_m3 / float(rectangle.torsion_moduli_m3[0])
     return Strength(
         compression_pa=yield_pa,

@@ -253,7 +253,7 @@ class Scenario(Table):
         return {"connections": connections, "time": time, **self._resolved_contacts()}
 
     def _resolved_contacts(self) -> dict[str, Any]:
-        """Return pairs of surfaces, or bodies with values of their own where any body gives one."""
+        """Use pairs of surfaces, or values per body if any body sets its own."""
         bodies = self.bodies_in_contact
         of_bodies = [name for body in bodies for name in body.given_keys]
         if not of_bodies:

@@ -341,8 +341,8 @@ def axis_m(member: SteelMember, places: Mapping[str, np.ndarray]) -> np.ndarray:
     return np.array([places[name] for name in member.nodes]) + member.from_nodes_m
 
 
-def leverage_of(steelwork: Steelwork, member: SteelMember, end: int | None) -> tuple[float, float]:
-    """Return by how much more than in axial force a joint of a bar resists in bending about y and z, by the bar.
+def bending_to_axial_ratio_of(steelwork: Steelwork, member: SteelMember, end: int | None) -> tuple[float, float]:
+    """Return the resistance of a joint of a bar in bending about y and z over that in axial force, by those of the bar.
 
     The joint is that at its first or last end, or one within it.
     """
@@ -350,7 +350,7 @@ def leverage_of(steelwork: Steelwork, member: SteelMember, end: int | None) -> t
     if by_pattern is None or end is None:
         return 1.0, 1.0
     yield_pa, _ = steelwork.yield_and_ultimate_pa(member)
-    return by_pattern.leverage(yield_pa, steelwork.end_share(member, end))
+    return by_pattern.bending_to_axial_ratio(yield_pa, steelwork.end_share(member, end))
 
 
 def _strength(steelwork: Steelwork, member: SteelMember, end: int | None) -> Strength:

@@ -98,12 +98,12 @@ class Stability:
     is_rigid: bool = False
     is_asleep: bool = False
 
-    def stored(self) -> dict[str, Any]:
+    def to_json(self) -> dict[str, Any]:
         """Return it ready for JSON."""
         return asdict(self)
 
     @classmethod
-    def of_stored(cls, values: Mapping[str, Any]) -> Stability:
+    def of_json(cls, values: Mapping[str, Any]) -> Stability:
         """Return what `stored` gave, maybe after JSON."""
         tables: dict[str, Any] = {"overloaded": OverloadedMember, "unsupported": MemberShare, "loose": MemberShare}
         tables["zones"] = ZoneLoad  # runs of before have none
@@ -172,7 +172,7 @@ def stability_texts(summary: Mapping[str, Any]) -> tuple[str, ...]:
     """Return what a run's summary says under ``stability``, as sentences without full stops; none for nothing."""
     if not summary.get("stability"):
         return ()
-    stability = Stability.of_stored(summary["stability"])
+    stability = Stability.of_json(summary["stability"])
     return tuple(filter(None, (stability.sentence, stability.asleep_sentence)))
 
 

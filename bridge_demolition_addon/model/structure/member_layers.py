@@ -210,7 +210,7 @@ class SpreadBars:
         return AXES.index(self.layer.along)
 
     def pulls_n(self, connections: Connections, factor: float) -> np.ndarray:
-        """Return the forces (m,) at which the bars across connections yield, which are so many times as strong."""
+        """Return the yield forces (m,) of the bars across connections, N; `factor` scales their strength."""
         crossed_m2 = abs(connections.normals[:, self.along]) * connections.areas
         return factor * self.layer.ratio * self.layer.yield_pa * crossed_m2
 

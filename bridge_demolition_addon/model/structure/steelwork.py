@@ -21,7 +21,7 @@ from ..bridge.member import Member, members_named
 from ..scenario.bearings import FIXED, ROCKER, UNYIELDING_MN_M
 from ..scenario.connections_between import GROUND_NAME
 from ..scenario.scenario import JointName
-from ..scenario.steelwork import SteelNode, Steelwork, leverage_of
+from ..scenario.steelwork import SteelNode, Steelwork, bending_to_axial_ratio_of
 from ..schema import given
 from .connection_source import ConnectionRows, ConnectionSource, CutMembers
 from .model_bearings import ModelBearings
@@ -279,7 +279,7 @@ def _resisting_moments(
     moments = np.square(connections.areas[steel.rows])[:, None, None] / 12.0 * np.eye(2)
     tables = {table.name: table for table in steelwork.all_members}
     own = [
-        plastic_second_moments(bar.section, leverage_of(steelwork, tables[name], _end_of(bar, number)))
+        plastic_second_moments(bar.section, bending_to_axial_ratio_of(steelwork, tables[name], _end_of(bar, number)))
         for name, bar, number in (
             (members[index].name, _bar(members[index]), number) for index, number in steel.joints.numbered
         )

@@ -93,15 +93,15 @@ class RunsTable:
     @property
     def still_moving(self) -> int:
         """Number of runs that finished before everything rested: their distances are not final."""
-        return sum(outputs[RESTED] is None and bool(outputs.get(MOVING, True)) for outputs in self._told_of_rest)
+        return sum(outputs[RESTED] is None and bool(outputs.get(MOVING, True)) for outputs in self._runs_with_rest_time)
 
     @property
     def single_moving(self) -> int:
         """Number of runs in which everything rested as a whole, while single shards still moved."""
-        return sum(outputs[RESTED] is not None and bool(outputs.get(MOVING)) for outputs in self._told_of_rest)
+        return sum(outputs[RESTED] is not None and bool(outputs.get(MOVING)) for outputs in self._runs_with_rest_time)
 
     @property
-    def _told_of_rest(self) -> list[Mapping[str, Any]]:
+    def _runs_with_rest_time(self) -> list[Mapping[str, Any]]:
         """Outputs of runs that finished and say since when everything rested."""
         return [row.outputs for row in self.rows if row.status == DONE and RESTED in row.outputs]
 

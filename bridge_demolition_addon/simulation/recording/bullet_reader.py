@@ -119,7 +119,7 @@ class BulletReader:
             holding.reinforce(breaking, events.remaining_bars)
         warm_up = WarmUp(world, self._free_shards(), breaking, release=elastic is None)
         meter = Meter(world, inventory, elastic)
-        overloads = self._overloads(elastic, events.pressed)
+        overloads = self._overloads(elastic, events.compression_factors)
         ruptured = bars_that_rupture(breaking.bars, inventory, world.bodies.motion())
         resistance = Resistance(overloads, events.remaining_strength, elastic, holding, ruptured)
         breaker = Breaker(constraints, meter, resistance, warm_up)
@@ -235,14 +235,14 @@ class BulletReader:
         return self._events.applied
 
     @property
-    def of_bearings(self) -> BearingLoads | None:
+    def bearing_loads(self) -> BearingLoads | None:
         """Forces of bearings in the frame that was read last; None where they are not known."""
-        return self._sums.of_bearings if self._sums else None
+        return self._sums.bearing_loads if self._sums else None
 
     @property
-    def of_cracks(self) -> FrameCracks:
+    def crack_loads(self) -> FrameCracks:
         """What bars across cracks did in the frame that was read last; of no crack where it is not known."""
-        return self._sums.of_cracks if self._sums else FrameCracks.none()
+        return self._sums.crack_loads if self._sums else FrameCracks.none()
 
     def take_ball_history(self) -> BallHistory:
         """Return the hits of the balls since the last call."""

@@ -77,7 +77,7 @@ class RestingState:
     damping_ratio: float
     held_bodies: int
 
-    def stored(self) -> dict[str, float]:
+    def to_json(self) -> dict[str, float]:
         """Return the values by the names that summaries have for them."""
         values = asdict(self)
         return {"sag_m": values.pop("deflection_m")} | values
@@ -253,7 +253,7 @@ class ElasticConnections:
         self._follow_frequencies(motion)
         alone = motion.inverse_masses, motion.inverse_inertia_components, motion.load_components
         velocities = velocities_alone(motion.velocity_components, self._left, *alone, substep_s)
-        gone = given(self._structure).settle(motion.position_components_m, motion.rotation_components)
+        gone = given(self._structure).update_plastic_state(motion.position_components_m, motion.rotation_components)
         if len(gone):
             self._world.constraints.break_rows(gone)
         for lifting in self._lifting:

@@ -55,7 +55,7 @@ class Events(Driver):
 
     The connections are between pairs (m, 2) of bodies with masses (n,); `remaining_strength` (m,) is the part of its
     strength that each has left, and `remaining_bars` (m,) that of its bars, which is less where tendons among them are
-    cut. Bars of blast zones stand bare where connections are elastic. `pressed` (m,) is by how
+    cut. Bars of blast zones stand bare where connections are elastic. `compression_factors` (m,) is by how
     much more strength each has left in compression. `lifts_off` (m,) are bearings that hold nothing that is lifted.
     """
 
@@ -72,7 +72,9 @@ class Events(Driver):
         self.remaining_strength = np.ones(len(pairs))
         self.remaining_bars = self.remaining_strength if tendons is None else np.ones(len(pairs))
         self._tendons = tendons
-        self.pressed = np.ones(len(pairs)) if any(event.compression_factor != 1.0 for event in events) else None
+        self.compression_factors = (
+            np.ones(len(pairs)) if any(event.compression_factor != 1.0 for event in events) else None
+        )
         self._elastic, self._lifts_off = elastic, np.zeros(len(pairs), bool) if lifts_off is None else lifts_off
         self.applied: list[AppliedEvent] = []
         self._world, self._pairs, self._masses_kg = world, pairs, masses_kg
@@ -105,8 +107,8 @@ class Events(Driver):
             bars = self._elastic.bare_bars.bare(event.bars, holding)
         # Connections that broke before may still hold by reinforcement, which is weakened or cut with the others.
         self.remaining_strength[event.connections] *= event.factor
-        if self.pressed is not None:
-            self.pressed[event.connections] *= event.compression_factor
+        if self.compression_factors is not None:
+            self.compression_factors[event.connections] *= event.compression_factor
         if event.factor > 0.0:
             self._world.constraints.weaken(connections, event.factor)
         else:

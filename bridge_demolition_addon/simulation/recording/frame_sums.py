@@ -95,8 +95,8 @@ class FrameSums:
         self._meter, self._inventory, self._work, self._every_substep = meter, inventory, work, every_substep
         self._frame = LoadAccumulator(inventory.pairs, inventory.volumes_m3, meter.normals)
         self._bearings = bearings
-        self._of_bearings: BearingLoads | None = None
-        self._cracks, self._of_cracks = cracks, FrameCracks.none()
+        self._bearing_loads: BearingLoads | None = None
+        self._cracks, self._crack_loads = cracks, FrameCracks.none()
         self._waiting: list[MeasuredSubstep] = []
         self._waiting_bytes = 0
         self._background = BackgroundWork()
@@ -107,10 +107,10 @@ class FrameSums:
         self._hits: list[tuple[float, np.ndarray, np.ndarray]] = []
         self._last: Reading | None = None
 
-    def let_work_count(self, counts: bool) -> None:
+    def count_work(self, counts: bool) -> None:
         """Set whether the work of the sub-steps to come counts."""
         if counts != self._work_counts:
-            self._hand_over()
+            self._evaluate_in_background()
             self._work_counts = counts
 
     def add(self, substep: MeasuredSubstep) -> None:
@@ -120,7 +120,7 @@ class FrameSums:
         self._waiting.append(substep)
         self._waiting_bytes += substep.reading.snapshot.size
         if self._is_worth_handing_over():
-            self._hand_over()
+            self._evaluate_in_background()
 
     def finish_frame(self) -> tuple[FrameLoads, FrameWork, list[Breaks]]:
         """Return loads, work and breaks of the frame, and begin the next frame."""
@@ -132,24 +132,24 @@ class FrameSums:
         self._frame.begin()
         self._breaks = []
         if self._bearings:
-            self._of_bearings = self._bearings.finish()
+            self._bearing_loads = self._bearings.finish()
             self._bearings.begin()
         if self._cracks:
-            self._of_cracks = self._cracks.finish()
-            use = self._of_cracks.use_of_bodies(self._inventory.pairs, len(self._inventory.masses_kg))
+            self._crack_loads = self._cracks.finish()
+            use = self._crack_loads.use_of_bodies(self._inventory.pairs, len(self._inventory.masses_kg))
             loads = replace(loads, body_bar_use=use)
         bars = self._cracks.bars if self._cracks else np.zeros(len(self._inventory.pairs))
         return replace(loads, connection_bars=bars), work, breaks
 
     @property
-    def of_bearings(self) -> BearingLoads | None:
+    def bearing_loads(self) -> BearingLoads | None:
         """Forces of bearings in the frame that was finished last; None where no time passed, or without bearings."""
-        return self._of_bearings
+        return self._bearing_loads
 
     @property
-    def of_cracks(self) -> FrameCracks:
+    def crack_loads(self) -> FrameCracks:
         """What bars across cracks did in the frame that was finished last; of no crack where it is not known."""
-        return self._of_cracks
+        return self._crack_loads
 
     def close(self) -> None:
         """Wait for the thread, and end it."""
@@ -201,8 +201,8 @@ class FrameSums:
         ends_frame = self._substeps == self._substeps_before
         return self._every_substep and self._waiting_bytes > (WORTH_HANDING_OVER_BYTES if ends_frame else BATCH_BYTES)
 
-    def _hand_over(self) -> None:
-        """Have the sub-steps that wait evaluated while Blender goes on."""
+    def _evaluate_in_background(self) -> None:
+        """Evaluate the sub-steps that wait in the background, while Blender goes on."""
         waiting = self._take_waiting()
         if waiting:
             self._background.begin(partial(self.work_out, waiting, work_counts=self._work_counts))

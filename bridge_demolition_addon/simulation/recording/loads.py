@@ -32,7 +32,7 @@ class ActedLoad:
         if self.force_n > self.largest_n:
             self.largest_n, self.largest_s = self.force_n, time_s
 
-    def stored(self) -> dict[str, Any]:
+    def to_json(self) -> dict[str, Any]:
         """Return it ready for JSON."""
         return {
             "name": self.name,
@@ -122,4 +122,4 @@ class Loads(Driver):
 
     def summary(self) -> list[dict[str, Any]]:
         """Return what each load did so far, ready for JSON."""
-        return [acted.stored() for acted in self.acted]
+        return [acted.to_json() for acted in self.acted]

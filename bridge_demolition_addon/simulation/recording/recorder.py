@@ -351,13 +351,13 @@ class Recording(RecordedFrames):
             self._logs.write_frame(frame)
             self._write_bearings(self._logs, frame)
             if self._bars and self._reader:
-                self._logs.write_bars(frame, *self._bars.note(frame, self._reader.of_cracks))
+                self._logs.write_bars(frame, *self._bars.note(frame, self._reader.crack_loads))
             if blast_loads is not None:
                 self._logs.write_blast(frame, blast_loads, frame_s)
 
     def _write_bearings(self, logs: Logs, frame: Frame) -> None:
         """Log the forces of bearings, and note the largest of them."""
-        loads = self._reader.of_bearings if self._reader else None
+        loads = self._reader.bearing_loads if self._reader else None
         if self._bearings and loads:
             logs.write_bearings(frame, self._bearings.note(frame, loads))
 

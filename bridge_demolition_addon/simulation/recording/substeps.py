@@ -107,7 +107,7 @@ class SubstepRecorder:
         self.elapsed_s += duration_s
 
     def _record(self, sums: FrameSums, substep_s: float) -> None:
-        sums.let_work_count(self._warm_up.is_over)
+        sums.count_work(self._warm_up.is_over)
         reading = self._meter.read(substep_s, self.elapsed_s)
         self._warm_up.end_when_due(self.elapsed_s)
         intact = self._breaker.break_overloaded(reading)

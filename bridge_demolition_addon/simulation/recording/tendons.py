@@ -45,7 +45,7 @@ class Tendons(Driver):
         self._begins_s = max(self._begins_s, elapsed_s)
         motion = self._reader.read()
         positions_m, rotations = motion.position_components_m, motion.rotation_components
-        self._note(self.forces.settle(positions_m, rotations), RUPTURED)
+        self._note(self.forces.update_plastic_state(positions_m, rotations), RUPTURED)
         self._begins_s += substep_s
         loads = self.forces.loads(positions_m, rotations)[:, self._bodies].T
         self._table.add_forces(self._bodies, loads[:, :3], loads[:, 3:])

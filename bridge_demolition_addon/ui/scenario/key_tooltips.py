@@ -38,7 +38,7 @@ def translated_tooltip(table_class: type[Table], item: Field, tooltips: Mapping[
 
 
 def _limits_in_signs(item: Field) -> str:
-    """Return what a key takes, with no word of any language but those of the file."""
+    """Return what a key takes, in symbols, so that nothing needs translation."""
     rule = key_of(item)
     if value_type(item) is bool:
         return "true | false"

@@ -261,7 +261,7 @@ def build_and_show(scene: bpy.types.Scene, scenario: Scenario, *, is_shown: bool
     show_checked(scene)
     keep_as_built(scene)
     if len(model.shards) <= _MOST_SHARDS_JUDGED:
-        keep_stability(scene, stability_of(scenario, model, with_factor=False).stored())
+        keep_stability(scene, stability_of(scenario, model, with_factor=False).to_json())
     return f"{len(model.shards)} shards, {len(model.connections)} connections"
 
 

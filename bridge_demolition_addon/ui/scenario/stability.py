@@ -35,7 +35,7 @@ class BDA_OT_does_it_stand(Action, bpy.types.Operator):
     def act(self, context: bpy.types.Context) -> str:
         scenario = scenario_of(context.scene.bda)
         stability = stability_of(scenario, checked_model(scenario))
-        keep_stability(context.scene, stability.stored())
+        keep_stability(context.scene, stability.to_json())
         return stability.sentence
 
 
@@ -51,7 +51,7 @@ def draw_stability(layout: bpy.types.UILayout, context: bpy.types.Context) -> No
         return
     try:
         kept = kept_stability(scene)
-        stability = Stability.of_stored(kept) if kept else None
+        stability = Stability.of_json(kept) if kept else None
     except (DemolitionError, KeyError, TypeError):  # the custom property was edited: the button writes it again
         stability = None
     if stability and not changes(scene.bda):

@@ -40,7 +40,7 @@ def force_n(cages, positions, moved_m, substep_s=1e-3):
     moved = positions + np.array([[0.0, 0.0], [0.0, 0.0], [0.0, moved_m]])
     step = cages.in_substep(np.array([0]), moved, LEVEL, substep_s)
     forces, _ = forces_and_tangents(step, np.zeros((1, 1)))
-    cages.settle(moved, LEVEL)
+    cages.update_plastic_state(moved, LEVEL)
     return -forces[0, 0] * step.arrays["directions"][2, 0]
 
 
@@ -159,7 +159,7 @@ def test_bars_between_two_flying_bodies_make_no_energy(seed, speed_m_s, rate_rad
     momentum, energies = (masses * velocities[:3]).sum(axis=1), []
     for _ in range(500):
         energies.append(0.5 * (masses * (velocities[:3] ** 2 + velocities[3:] ** 2 / 6.0)).sum())
-        structure.settle(positions, rotations)
+        structure.update_plastic_state(positions, rotations)
         start = StepInput(positions, rotations, velocities, np.zeros(2, bool))
         velocities = structure.step(start, np.zeros(0, bool), substep_s).velocities
         structure.end_substep()

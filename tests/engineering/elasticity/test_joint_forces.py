@@ -4,8 +4,8 @@
 import numpy as np
 import pytest
 
-from bridge_demolition_addon.engineering.elasticity.equations import stressed
-from bridge_demolition_addon.engineering.elasticity.joint_forces import put_loads, stored, velocities_alone
+from bridge_demolition_addon.engineering.elasticity.equations import spring_forces
+from bridge_demolition_addon.engineering.elasticity.joint_forces import put_loads, stored_energies, velocities_alone
 from bridge_demolition_addon.engineering.elasticity.joint_rows import JointFrames, joint_positions
 from bridge_demolition_addon.engineering.elasticity.substep import Frames, Places, deformations
 from bridge_demolition_addon.engineering.geometry.rotations import rotated
@@ -82,6 +82,6 @@ def test_loads_are_of_what_holds(rng):
 def test_stored_energy_is_half_of_load_by_strain(rng):
     stiffness = rng.normal(size=(6, 6, CONNECTIONS)) * 10.0 ** rng.uniform(0.0, 9.0, CONNECTIONS)
     strains = rng.normal(size=(6, CONNECTIONS)) * 10.0 ** rng.uniform(-12.0, 0.0, (6, CONNECTIONS))
-    expected = 0.5 * (stressed(stiffness, strains) * strains).sum(axis=0)
-    scale = 0.5 * (abs(stressed(abs(stiffness), abs(strains))) * abs(strains)).sum(axis=0)
-    assert (abs(stored(stiffness, strains) - expected) < 1e-14 * scale).all()
+    expected = 0.5 * (spring_forces(stiffness, strains) * strains).sum(axis=0)
+    scale = 0.5 * (abs(spring_forces(abs(stiffness), abs(strains))) * abs(strains)).sum(axis=0)
+    assert (abs(stored_energies(stiffness, strains) - expected) < 1e-14 * scale).all()

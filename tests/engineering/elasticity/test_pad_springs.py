@@ -65,7 +65,7 @@ class Blocks:
             mean = (self.velocities[:3] * self.masses).sum(axis=1, keepdims=True) / self.masses.sum()
             self.velocities[:3] = mean + (1.0 - slowed) * (self.velocities[:3] - mean)
             self.velocities[:3] += SUBSTEP_S * np.asarray(forces) / self.masses
-            self.structure.settle(self.positions, self.rotations)
+            self.structure.update_plastic_state(self.positions, self.rotations)
             start = StepInput(self.positions, self.rotations, self.velocities, np.zeros(2, bool))
             step = self.structure.step(start, np.ones(1, bool), SUBSTEP_S)
             self.velocities[:3] += step.of_bodies[:3] / self.masses

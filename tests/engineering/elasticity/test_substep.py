@@ -116,7 +116,7 @@ class Structure:
         return [ReferenceTerm(law.in_substep(np.arange(len(law.rows)), *given), SUBSTEP_S) for law in laws]
 
     def step(self):
-        self.structure.settle(self.positions, self.rotations)
+        self.structure.update_plastic_state(self.positions, self.rotations)
         start = StepInput(self.positions, self.rotations, self.velocities, np.zeros(BODIES, bool))
         return self.structure.step(start, self.intact, SUBSTEP_S)
 

@@ -117,7 +117,7 @@ def test_a_wide_crack_ruptures_it():
     forces, positions = tendon(steel())
     apart = positions.copy()
     apart[0, 5:] += 0.009
-    assert not forces.settle(apart, unturned(10)).any()
+    assert not forces.update_plastic_state(apart, unturned(10)).any()
     apart[0, 5:] += 0.002
-    assert forces.settle(apart, unturned(10))[0] > 0.0
+    assert forces.update_plastic_state(apart, unturned(10))[0] > 0.0
     assert forces.forces_n[4] == 0.0

@@ -28,7 +28,7 @@ def bearing(*, pulls):
 
 
 def is_left(found, positions, rotations):
-    found.settle(positions, rotations)
+    found.update_plastic_state(positions, rotations)
     return len(found.failed(np.ones(1, bool), np.ones(1))) == 1
 
 

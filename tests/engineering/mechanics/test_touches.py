@@ -27,8 +27,8 @@ def frames_of(rng, is_known):
 def test_what_comes_back_is_that_of_the_reference(seed, gap, is_known):
     accounts, expected, most = Touches(), ReferenceTouches(APART), 0.0
     for frame in frames_of(np.random.default_rng(seed), is_known):
-        found = accounts.returned(*frame)
-        np.testing.assert_array_equal(found, expected.returned(*frame))
+        found = accounts.returned_energies(*frame)
+        np.testing.assert_array_equal(found, expected.returned_energies(*frame))
         most = max(most, np.nanmax(found))
         accounts.pass_over(gap)
         expected.pass_over(gap)
@@ -37,8 +37,8 @@ def test_what_comes_back_is_that_of_the_reference(seed, gap, is_known):
 
 def test_sub_steps_without_contacts_and_rows_that_there_are_not():
     accounts, nothing = Touches(), np.zeros(0, int)
-    assert accounts.returned(nothing, np.zeros(0), np.zeros(4, int)).shape == (0,)
+    assert accounts.returned_energies(nothing, np.zeros(0), np.zeros(4, int)).shape == (0,)
     with pytest.raises(ValueError, match="rows that there are not"):
-        accounts.returned(np.array([3, 4]), np.array([-1.0, 1.0]), np.array([2, 4]))
+        accounts.returned_energies(np.array([3, 4]), np.array([-1.0, 1.0]), np.array([2, 4]))
     with pytest.raises(ValueError, match="work has numbers of type int64: expected float64"):
-        accounts.returned(np.array([3, 4]), np.array([-1, 1]), np.array([0, 2]))
+        accounts.returned_energies(np.array([3, 4]), np.array([-1, 1]), np.array([0, 2]))

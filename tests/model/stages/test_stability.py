@@ -127,8 +127,8 @@ def test_a_column_uses_its_strength_by_its_weight(tmp_path):
 
 def test_a_verdict_is_stored_as_json_and_read_again(tmp_path):
     found = stability_of(blocks(tmp_path, ("block", (2, 1, 1), (0, 0, 3))))
-    stored = json.loads(json.dumps(found.stored()))
-    assert Stability.of_stored(stored) == found
+    stored = json.loads(json.dumps(found.to_json()))
+    assert Stability.of_json(stored) == found
     assert stability_texts({"stability": stored}) == (found.sentence,)
     assert stability_texts({"stability": None}) == stability_texts({}) == ()
 

@@ -7,7 +7,7 @@ from support.steelwork import bar, node, steel_scenario
 
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.errors import ScenarioError
-from bridge_demolition_addon.model.scenario.steelwork import leverage_of
+from bridge_demolition_addon.model.scenario.steelwork import bending_to_axial_ratio_of
 from bridge_demolition_addon.model.stages.standing import StandingBridge
 from bridge_demolition_addon.model.structure.equilibrium import model_at_rest
 from bridge_demolition_addon.model.structure.model import build_model
@@ -94,11 +94,13 @@ def test_the_farthest_bolt_has_a_moment_and_a_shear_by_hand():
 def test_out_of_the_plane_of_the_gusset_an_end_is_as_weak_as_along_the_bar():
     """A flat bar that lies has its pattern in the level plane."""
     upright, lying = (cantilever(1000.0, SIX, section).steelwork for section in ("FLAT 200x20", "FLAT 20x200"))
-    of_upright, of_lying = (leverage_of(steelwork, steelwork.members[0], 0) for steelwork in (upright, lying))
+    of_upright, of_lying = (
+        bending_to_axial_ratio_of(steelwork, steelwork.members[0], 0) for steelwork in (upright, lying)
+    )
     share = upright.end_share(upright.members[0], 0)
     assert of_upright == (pytest.approx(40.50 / 71.0 / share, rel=1e-3), 1.0)
     assert of_lying == (1.0, pytest.approx(of_upright[0], rel=1e-9))
-    assert leverage_of(upright, upright.members[0], 1) == (1.0, 1.0)
+    assert bending_to_axial_ratio_of(upright, upright.members[0], 1) == (1.0, 1.0)
 
 
 def test_overloaded_bolts_are_named():

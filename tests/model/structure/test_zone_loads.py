@@ -39,7 +39,7 @@ def test_a_zone_carries_what_is_above_it(tmp_path, middle_m, above_m, shards):
     (load,) = stability.zones
     assert load.pressed_n == pytest.approx(LOAD_N + WEIGHT_N_M * above_m, rel=1e-4)
     assert load.shear_n == pytest.approx(0.0, abs=50.0) and load.bending_nm == pytest.approx(0.0, abs=2e3)
-    assert Stability.of_stored(json.loads(json.dumps(stability.stored()))) == stability
+    assert Stability.of_json(json.loads(json.dumps(stability.to_json()))) == stability
     (fall,) = zone_falls([placed_zone(scenario.blast_zones[0], model.members)]).values()
     assert (fall.falls_m, fall.above_m, fall.below_m) == pytest.approx((1.5, above_m, 2.5 - above_m))
     assert fall.can_stand and fall.lands_m_s == pytest.approx(np.sqrt(2.0 * G * 1.5))
