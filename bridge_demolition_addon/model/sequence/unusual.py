@@ -16,6 +16,9 @@ from .checked_model import ModelWorksite
 _LARGEST_G_T = 2000.0
 """Explosive by the mass of the bridge that bare charges reach where kilograms are given for grams."""
 
+_POINT_M = 0.01
+"""Radius of a position that lies in a member or not."""
+
 _MOST_MACHINES = 1.0
 """Mass of a machine over that of the bridge that it stands on."""
 
@@ -30,6 +33,7 @@ def unusual_texts(scenario: Scenario, model: Model) -> tuple[str, ...]:
         *(text for zone in zones for text in zone.unusual()),
         *_explosive(scenario, model),
         *_machines(scenario, site.mass_kg),
+        *_neighbours(scenario, site),
     )
 
 
@@ -49,6 +53,12 @@ def _machines(scenario: Scenario, bridge_kg: float) -> Iterator[str]:
     for machine in scenario.equipment:
         if machine.mass_kg > _MOST_MACHINES * bridge_kg:
             yield f"{machine.name} is {machine.mass_kg / bridge_kg:.3g} times as heavy as the bridge (is it in kg?)"
+
+
+def _neighbours(scenario: Scenario, site: ModelWorksite) -> Iterator[str]:
+    for neighbour in scenario.neighbours:
+        if inside := site.member_within(neighbour.place_m, _POINT_M):
+            yield f"{neighbour.name} lies in {inside}, as no neighbour does (is its place right?)"
 
 
 USUAL_DENSITY_KG_M3 = (300.0, 9000.0)
