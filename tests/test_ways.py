@@ -18,7 +18,7 @@ apply = "direct"
 
 [[charges]]
 name = "west"
-place_m = [0.0, 0.0, 1.0]
+position_m = [0.0, 0.0, 1.0]
 mass_kg = 1.0
 """
 

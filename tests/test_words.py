@@ -95,7 +95,7 @@ def test_refused_words_are_found_in_text_and_not_in_code():
         "'One draw'",
         "'bears'",
     ]
-    assert list(wrong_words(without_code("`spin` of rest_spin_rad_s, [draws](trials.md)"))) == []
+    assert list(wrong_words(without_code("`spin` of rest_angular_velocity_rad_s, [draws](trials.md)"))) == []
 
 
 def test_terms_of_the_glossary_are_in_order_and_no_other_term_refuses_them():

@@ -43,7 +43,7 @@ def rule_kpa(scaled_distance: float | np.ndarray) -> float | np.ndarray:
 
 def found_kpa(scaled_distance: float) -> float:
     """Pressure that the add-on gives for a neighbour."""
-    charge = Charge(name="bare", place_m=(0.0, 0.0, 0.0), mass_kg=MASS_KG, burst="surface")
+    charge = Charge(name="bare", position_m=(0.0, 0.0, 0.0), mass_kg=MASS_KG, burst="surface")
     return loads_at((scaled_distance * MASS_KG ** (1.0 / 3.0), 0.0, 0.0), [charge]).peak_pa / 1e3
 
 

@@ -334,7 +334,7 @@ def loaded(
 name = "{mesh.replace("_", " ").removesuffix(".obj")}"
 kind = "{mesh.split("_")[0]}"
 file = "{mesh}"
-place_m = [0.0, 0.0, {base_m}]
+position_m = [0.0, 0.0, {base_m}]
 density_kg_m3 = {arch.density_kg_m3}
 """
         for mesh in meshes

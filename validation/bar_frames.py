@@ -48,7 +48,7 @@ pieces = {pieces}
 class Node:
     """A node with its place, m, and the mass that it carries, kg."""
 
-    place_m: tuple[float, float, float]
+    position_m: tuple[float, float, float]
     mass_kg: float = 0.0
     is_fixed: bool = False
     held_by: str | None = None
@@ -84,7 +84,7 @@ class BarFrame:
             held = {"support": "fixed"} if node.is_fixed else {}
             held |= {"held_by": node.held_by} if node.held_by else {}
             carried = {"mass_kg": node.mass_kg} if node.mass_kg else {}
-            parts.append(_table("nodes", {"name": name, "place_m": list(node.place_m), **held, **carried}))
+            parts.append(_table("nodes", {"name": name, "position_m": list(node.position_m), **held, **carried}))
         for name, (begin, end, section) in self.bars.items():
             parts.append(_table("members", {"name": name, "nodes": [begin, end], "section": section}))
         return "\n".join(parts)

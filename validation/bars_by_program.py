@@ -99,14 +99,14 @@ def moments_nm(model: Model, loads: np.ndarray, name: str) -> np.ndarray:
 
 def sinking(folder: Path) -> tuple[np.ndarray, np.ndarray]:
     """Return times, s, and how far the watched node of the grillage is below its place without loads, mm."""
-    x, y, z = GRILLAGE.nodes[LOST].place_m
+    x, y, z = GRILLAGE.nodes[LOST].position_m
     half = 0.5 * PROP_M
     prop = block((x - half, y - half, 0.0), (x + half, y + half, z - UNDER_M))
     text = GRILLAGE.on(LOST, "prop").scenario().replace("duration_s = 1.0", f"duration_s = {DURATION_S}") + PROP
     results = simulated(folder, "grillage", text, {"prop": prop})
     (node,) = np.flatnonzero(results.inventory.body_members == GRILLAGE.watched)
     return results.frames.time_s, 1e3 * (
-        GRILLAGE.nodes[GRILLAGE.watched].place_m[2] - results.frames.positions_m[:, node, 2]
+        GRILLAGE.nodes[GRILLAGE.watched].position_m[2] - results.frames.positions_m[:, node, 2]
     )
 
 

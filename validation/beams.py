@@ -88,10 +88,10 @@ member = "post"
 shards = 4
 
 [[fracture.points]]
-place_m = [{-self.span_m / 4.0}, 0.0, {middle}]
+position_m = [{-self.span_m / 4.0}, 0.0, {middle}]
 
 [[fracture.points]]
-place_m = [{self.span_m / 4.0}, 0.0, {middle}]
+position_m = [{self.span_m / 4.0}, 0.0, {middle}]
 
 [[materials]]
 name = "of the beam"

@@ -105,7 +105,7 @@ loading = "reflected"
 apply = "direct"
 
 [[charges]]
-place_m = [0.0, 0.0, {middle - STAND_OFF_M}]
+position_m = [0.0, 0.0, {middle - STAND_OFF_M}]
 mass_kg = {charge_kg}
 {RIGID_BODIES.format(shards=0.25, ground=0.25)}"""
     return middle_m(simulated(folder, f"{charge_kg:g}_kg", scenario, STRIP.solids))

@@ -57,7 +57,7 @@ name = "{name.replace("_", " ")}"
 kind = "{name.split("_")[0]}"
 file = "{name}.stl"
 tilt_deg = [0.0, {LEAN_DEG}]
-place_m = [0.0, 0.0, {FOOT_M}]
+position_m = [0.0, 0.0, {FOOT_M}]
 density_kg_m3 = 2400.0
 """
         for name in meshes

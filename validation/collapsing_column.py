@@ -180,7 +180,7 @@ def _table(mesh: str, position: np.ndarray) -> str:
 name = "{mesh.removesuffix(".obj").replace("_", " ")}"
 kind = "{kind}"
 file = "{mesh}"
-place_m = {[float(f"{value:.6f}") for value in position]}
+position_m = {[float(f"{value:.6f}") for value in position]}
 density_kg_m3 = 2400.0
 """
 

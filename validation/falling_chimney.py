@@ -63,7 +63,7 @@ name = "foot"
 kind = "foot"
 file = "foot.stl"
 tilt_deg = [0.0, {lean_deg}]
-place_m = [0.0, 0.0, {1.0 + FOOT_M}]
+position_m = [0.0, 0.0, {1.0 + FOOT_M}]
 density_kg_m3 = 2400.0
 
 [[geometry]]
@@ -71,7 +71,7 @@ name = "chimney"
 kind = "chimney"
 file = "chimney.stl"
 tilt_deg = [0.0, {lean_deg}]
-place_m = [0.0, 0.0, {1.0 + FOOT_M}]
+position_m = [0.0, 0.0, {1.0 + FOOT_M}]
 density_kg_m3 = 2400.0
 
 [[supports]]

@@ -81,7 +81,7 @@ def _course(folder: Path, name: str, lean_deg: float, duration_s: float, *, ston
 name = "stone"
 kind = "stone"
 file = "stone.stl"
-place_m = [0.0, 30.0, {top_m}]
+position_m = [0.0, 30.0, {top_m}]
 density_kg_m3 = 2400.0
 """
     scenario = f"""
@@ -99,7 +99,7 @@ name = "foot"
 kind = "foot"
 file = "foot.stl"
 tilt_deg = [0.0, {lean_deg}]
-place_m = [0.0, 0.0, {FOOT_M}]
+position_m = [0.0, 0.0, {FOOT_M}]
 density_kg_m3 = 2400.0
 
 [[geometry]]
@@ -107,7 +107,7 @@ name = "rod"
 kind = "rod"
 file = "rod.stl"
 tilt_deg = [0.0, {lean_deg}]
-place_m = [0.0, 0.0, {FOOT_M}]
+position_m = [0.0, 0.0, {FOOT_M}]
 density_kg_m3 = 2400.0
 {beside if stone else ""}
 [[supports]]

@@ -80,7 +80,7 @@ file = "block.stl"
 density_kg_m3 = 2400.0
 tilt_deg = [0.0, {math.degrees(tilt)}]
 velocity_m_s = [{spin * HEIGHT_M / 2.0}, 0.0, {spin * WIDTH_M / 2.0}]
-spin_rad_s = [0.0, {spin}, 0.0]
+angular_velocity_rad_s = [0.0, {spin}, 0.0]
 
 [fracture]
 shards = 1

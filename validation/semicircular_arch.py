@@ -62,7 +62,7 @@ def _course(folder: Path, thickness: float) -> tuple[np.ndarray, np.ndarray]:
 name = "{name.replace("_", " ")}"
 kind = "{name.split("_")[0]}"
 file = "{name}.stl"
-place_m = [0.0, 0.0, {SPRINGING_M}]
+position_m = [0.0, 0.0, {SPRINGING_M}]
 density_kg_m3 = 2400.0
 """
         for name in meshes

@@ -85,7 +85,7 @@ loading = "reflected"
 apply = "direct"
 
 [[charges]]
-place_m = [{-STAND_OFF_M - WIDTH_M / 2.0}, 0.0, {HEIGHT_M / 2.0}]
+position_m = [{-STAND_OFF_M - WIDTH_M / 2.0}, 0.0, {HEIGHT_M / 2.0}]
 mass_kg = {charge_kg(share)}
 """
     solid = block((-WIDTH_M, -DEPTH_M / 2.0, 0.0), (0.0, DEPTH_M / 2.0, HEIGHT_M))

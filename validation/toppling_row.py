@@ -100,7 +100,7 @@ def hits_s(folder: Path, thickness: float, gap: float, count: int = COUNT, subst
     )
     members = "".join(
         f'\n[[geometry]]\nname = "{name}"\nkind = "member"\nfile = "pier.stl"\ndensity_kg_m3 = 2400.0\n'
-        f"place_m = [{pitch * row}, 0.0, 0.0]\n{'' if row else pushed}"
+        f"position_m = [{pitch * row}, 0.0, 0.0]\n{'' if row else pushed}"
         for row, name in enumerate(names)
     )
     scenario = f"""

@@ -161,9 +161,9 @@ def _table(tosses: Tosses, row: int, place: tuple[float, float, float]) -> str:
 [[geometry]]
 name = "cube {row:03d}"
 file = "cube_{row:03d}.obj"
-place_m = {written(tosses.positions_m[row] + place)}
+position_m = {written(tosses.positions_m[row] + place)}
 velocity_m_s = {written(tosses.velocities_m_s[row])}
-spin_rad_s = {written(tosses.angular_velocities_rad_s[row])}
+angular_velocity_rad_s = {written(tosses.angular_velocities_rad_s[row])}
 mass_kg = {MASS_KG}
 """
 

@@ -77,7 +77,8 @@ class ChartSettings:
     def pier_charges(self) -> tuple[Charge, ...]:
         """The charges of the two-span bridge."""
         return tuple(
-            Charge(name=name, place_m=(x, 0.0, 0.0), mass_kg=self.pier_charge_kg, burst=self.burst) for name, x in PIERS
+            Charge(name=name, position_m=(x, 0.0, 0.0), mass_kg=self.pier_charge_kg, burst=self.burst)
+            for name, x in PIERS
         )
 
     @property
@@ -232,8 +233,8 @@ def rings_on_plan(charges: Sequence[Charge], settings: ChartSettings, title: str
     """Plan of charges with the rings of damage at the first one's level: all of them, and those near the charges."""
     figure = _blank_figure(11.0, 7.0)
     thresholds = distinct_thresholds()
-    radii = ring_radii(charges, charges[0].place_m[2], thresholds, settings.model)
-    positions = np.array([charge.place_m[:2] for charge in charges])
+    radii = ring_radii(charges, charges[0].position_m[2], thresholds, settings.model)
+    positions = np.array([charge.position_m[:2] for charge in charges])
     for axes, nearest in zip(figure.subplots(1, 2), (0.0, NEAR_RINGS_PA), strict=True):
         for threshold, row, style in zip(thresholds, radii, _LINES, strict=True):
             if threshold.overpressure_pa >= nearest:
@@ -360,7 +361,7 @@ def _along_the_spans() -> np.ndarray:
 
 def _pulses_along_bridge(positions_m: np.ndarray, settings: ChartSettings) -> Pulses:
     charges = settings.pier_charges
-    stand_offs = abs(positions_m[:, None] - [charge.place_m[0] for charge in charges])
+    stand_offs = abs(positions_m[:, None] - [charge.position_m[0] for charge in charges])
     masses, delays = [charge.tnt_kg for charge in charges], [charge.delay_s for charge in charges]
     return blast_pulses(stand_offs, masses, delays, [charge.burst for charge in charges], model=settings.model)
 

@@ -39,7 +39,7 @@ def overpressure_map(
     """Largest overpressure of any one charge on the ground, with the rings of damage and the ground's contour lines."""
     thresholds = [threshold for threshold in distinct_thresholds() if threshold.overpressure_pa >= WIDEST_PA]
     radii = ring_radii(charges, 0.0, thresholds, model, pressure_factor)
-    positions = np.array([charge.place_m[:2] for charge in charges])
+    positions = np.array([charge.position_m[:2] for charge in charges])
     left, back, right, front = bridge.bounds()  # shown even where no ring reaches the ground
     low = np.minimum(positions.min(axis=0) - _ROOM * radii.max(), (left, back))
     high = np.maximum(positions.max(axis=0) + _ROOM * radii.max(), (right, front))
@@ -63,9 +63,9 @@ def overpressure_map(
     draw_area(axes, bridge, fill=False, edgecolor="black", linewidth=1.0, label="bridge")
     axes.plot(*positions.T, "k+", markersize=7, label="charge")
     for neighbour in neighbours:
-        if (np.array(neighbour.place_m[:2]) >= low).all() and (np.array(neighbour.place_m[:2]) <= high).all():
-            axes.plot(*neighbour.place_m[:2], "k^", markersize=5)
-            name_neighbour(axes, neighbour, to_the_left=neighbour.place_m[0] > (low[0] + high[0]) / 2.0)
+        if (np.array(neighbour.position_m[:2]) >= low).all() and (np.array(neighbour.position_m[:2]) <= high).all():
+            axes.plot(*neighbour.position_m[:2], "k^", markersize=5)
+            name_neighbour(axes, neighbour, to_the_left=neighbour.position_m[0] > (low[0] + high[0]) / 2.0)
     draw_ground(axes, ground)
     axes.set(xlabel="x along the road (m)", ylabel="y across the road (m)")
     figure.colorbar(image, ax=axes, label="peak overpressure of one charge (kPa)", shrink=0.9)
@@ -76,7 +76,7 @@ def name_neighbour(axes: Axes, neighbour: Neighbour, *, to_the_left: bool) -> No
     """Write a neighbour's name beside it, towards the middle of the map, over several lines where it is long."""
     name = fill(plain(neighbour.name), _NAME_LETTERS)
     offset, side = ((-4, 4), "right") if to_the_left else ((4, 4), "left")
-    axes.annotate(name, neighbour.place_m[:2], offset, textcoords="offset points", ha=side, fontsize=7)
+    axes.annotate(name, neighbour.position_m[:2], offset, textcoords="offset points", ha=side, fontsize=7)
 
 
 def neighbour_pressures(figure: FigureBase, loads: Sequence[tuple[str, PlaceLoads]]) -> None:

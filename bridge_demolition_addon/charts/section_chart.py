@@ -39,7 +39,7 @@ def section_chart(figure: FigureBase, section: PileSection) -> None:
 def section_title(section: PileSection) -> str:
     """Return what the section is of, and its figures."""
     axis = "y" if section.direction is Direction.ALONG else "x"
-    what = f"Section {section.direction} the bridge at {axis} = {section.place_m:g} m, {section.time_s:.2f} s"
+    what = f"Section {section.direction} the bridge at {axis} = {section.position_m:g} m, {section.time_s:.2f} s"
     if section.debris.is_empty():
         return f"{what}\nno debris is cut"
     return (

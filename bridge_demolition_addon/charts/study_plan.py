@@ -44,12 +44,12 @@ def study_plan(
     low, high = _corners([bridge, *likely.values(), *limits.values()], zones)
     near = [neighbour for neighbour in neighbours if _is_within(neighbour, low, high)]
     if near:
-        positions = np.array([neighbour.place_m[:2] for neighbour in near])
+        positions = np.array([neighbour.position_m[:2] for neighbour in near])
         axes.plot(*positions.T, "^", color="black", markersize=5.0, linestyle="none", label="neighbours")
     fit(axes, figure)
     name_zones(axes, zones)
     for neighbour in near:
-        name_neighbour(axes, neighbour, to_the_left=neighbour.place_m[0] > (low[0] + high[0]) / 2.0)
+        name_neighbour(axes, neighbour, to_the_left=neighbour.position_m[0] > (low[0] + high[0]) / 2.0)
 
 
 def _corners(areas: Sequence[CrossSection], zones: Sequence[Zone]) -> tuple[np.ndarray, np.ndarray]:
@@ -60,5 +60,5 @@ def _corners(areas: Sequence[CrossSection], zones: Sequence[Zone]) -> tuple[np.n
 
 
 def _is_within(neighbour: Neighbour, low: np.ndarray, high: np.ndarray) -> bool:
-    position = np.array(neighbour.place_m[:2])
+    position = np.array(neighbour.position_m[:2])
     return bool((position >= low).all() and (position <= high).all())

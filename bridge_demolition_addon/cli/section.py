@@ -38,8 +38,8 @@ def section(arguments: argparse.Namespace) -> None:
     from ..model.results.arrays import load_results
 
     across = arguments.across is not None
-    direction, place_m = (Direction.ACROSS, arguments.across) if across else (Direction.ALONG, arguments.along)
-    cut = pile_section(load_results(arguments.folder), direction, place_m)
+    direction, position_m = (Direction.ACROSS, arguments.across) if across else (Direction.ALONG, arguments.along)
+    cut = pile_section(load_results(arguments.folder), direction, position_m)
     outputs = arguments.output or [new_section_file(arguments.folder, cut, ending) for ending in (SVG, DXF)]
     for path in outputs:
         write_section(cut, path)

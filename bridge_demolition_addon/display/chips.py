@@ -64,7 +64,7 @@ def chips_of(clouds: list[Puff], times_s: dict[int, float], ground: RecordedGrou
     numbers = [int(np.clip(_OF_RADIUS * cloud.radius_m, 3, _MOST)) for cloud in clouds]
     total = sum(numbers)
     since = np.repeat([times_s[cloud.frame] for cloud in clouds], numbers)
-    middles = np.repeat(np.array([cloud.place_m for cloud in clouds]).reshape(-1, 3), numbers, axis=0)
+    middles = np.repeat(np.array([cloud.position_m for cloud in clouds]).reshape(-1, 3), numbers, axis=0)
     radii = np.repeat([cloud.radius_m for cloud in clouds], numbers)
     places = middles + 0.4 * radii[:, None] * random.uniform(-1.0, 1.0, (total, 3))
     sizes = _SIZES_M[0] * (_SIZES_M[1] / _SIZES_M[0]) ** random.uniform(0.0, 1.0, total) ** 2

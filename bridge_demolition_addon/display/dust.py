@@ -34,7 +34,7 @@ class Puff:
     """A cloud of dust: the frame in which it appears, its middle, and its radius when fully grown."""
 
     frame: int
-    place_m: tuple[float, float, float]
+    position_m: tuple[float, float, float]
     radius_m: float
 
 

@@ -84,10 +84,10 @@ def way_lines(positions_m: np.ndarray) -> np.ndarray:
     return np.stack((positions_m[:-1], positions_m[1:]), axis=1).reshape(-1, 3)
 
 
-def cross_lines(place_m: ArrayLike, size_m: float) -> np.ndarray:
+def cross_lines(position_m: ArrayLike, size_m: float) -> np.ndarray:
     """Return a cross of three lines, (6, 3) float, m, at a position."""
     arms = size_m * np.eye(3)
-    position = np.asarray(place_m, float)
+    position = np.asarray(position_m, float)
     return np.stack((position - arms, position + arms), axis=1).reshape(-1, 3)
 
 
@@ -98,13 +98,13 @@ def flash_share(since_s: float) -> float:
     return math.exp(-max(since_s, 0.0) / _FADING_S)
 
 
-def flash_lines(place_m: Sequence[float], radius_m: float) -> np.ndarray:
+def flash_lines(position_m: Sequence[float], radius_m: float) -> np.ndarray:
     """Return rays to all sides of a position as lines (2 r, 3) float, m."""
     turns = np.arange(_RAYS) * 2.0 * math.pi / _RAYS
     flat = [(math.cos(turn), math.sin(turn), rise) for turn in turns for rise in (-0.8, 0.0, 0.8)]
     rays = np.array([*flat, (0.0, 0.0, 1.0), (0.0, 0.0, -1.0)])
     rays /= np.linalg.norm(rays, axis=1, keepdims=True)
-    position = np.asarray(place_m, float)
+    position = np.asarray(position_m, float)
     return np.stack((position + 0.15 * radius_m * rays, position + radius_m * rays), axis=1).reshape(-1, 3)
 
 

@@ -28,7 +28,7 @@ class Farthest:
     """Debris distance of a frame, and the corner (2,) of a shard that is so far away, both m."""
 
     distance_m: float
-    place_m: np.ndarray
+    position_m: np.ndarray
 
 
 @dataclass(frozen=True, slots=True, eq=False)

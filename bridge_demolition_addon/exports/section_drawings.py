@@ -25,7 +25,7 @@ _TEXT_M = 0.25
 
 def new_section_file(folder: Path, section: PileSection, ending: str) -> Path:
     """Return a new file for a section in the folder of its run: ``section_across_12.5m.svg``, counted up from 2."""
-    name = f"section_{section.direction}_{section.place_m:g}m"
+    name = f"section_{section.direction}_{section.position_m:g}m"
     names = (f"{name}{number}{ending}" for number in ("", *(f"_{count}" for count in range(2, 10_000))))
     return next(path for each in names if not (path := folder / each).exists())
 
@@ -42,7 +42,7 @@ def write_section(section: PileSection, path: Path) -> None:
         raise OutputError(f"{path}: expected a name that ends in {', '.join(ENDINGS)}")
     if section.is_empty:
         raise OutputError(
-            f"section {section.direction} the bridge at {section.place_m:g} m: cuts no shard; move the plane"
+            f"section {section.direction} the bridge at {section.position_m:g} m: cuts no shard; move the plane"
         )
     if path.exists() or path.is_symlink():
         raise OutputError(f"{path}: is there already; choose another name, or delete it first")
@@ -79,7 +79,7 @@ def _entities(section: PileSection) -> Iterator[tuple[int, object]]:
     yield from _polyline("GROUND", section.ground_m, closed=False)
     x, y = section.ground_m[0]
     text = (
-        f"section {section.direction} the bridge at {section.place_m:g} m, {section.time_s:.2f} s, "
+        f"section {section.direction} the bridge at {section.position_m:g} m, {section.time_s:.2f} s, "
         f"debris {section.debris_area_m2:.2f} m2, {section.debris_height_m:.2f} m high"
     )
     yield from ((0, "TEXT"), (8, "TEXT"), (10, f"{x:.4f}"), (20, f"{y - 3.0 * _TEXT_M:.4f}"), (40, _TEXT_M), (1, text))

@@ -23,7 +23,7 @@ JOINT_GAP_M = 0.003
 class JointPlate:
     """A plate at a joint of bars: where it is (3,), and its mass."""
 
-    place_m: np.ndarray
+    position_m: np.ndarray
     mass_kg: float
 
 

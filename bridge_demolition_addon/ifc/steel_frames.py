@@ -167,7 +167,7 @@ def _reach_m(bar: SteelElement, support: BarSupport, frame: SteelFrame, node: st
     if support.end is None:
         return -_CLEAR_M
     out = bar.along * (1.0 if support.end else -1.0)
-    return float(dot(frame.solid_of(node).vertices - support.place_m, out).max())
+    return float(dot(frame.solid_of(node).vertices - support.position_m, out).max())
 
 
 def _frame(
@@ -194,7 +194,7 @@ def _frame(
     nodes = tuple(
         SteelNode(
             name=node_names[row],
-            place_m=_rounded(place),
+            position_m=_rounded(place),
             support=of_nodes[row].kind if row in of_nodes else None,
             **({"held_by": of_nodes[row].held_by} if row in of_nodes else {}),
             mass_kg=round(masses.get(row, 0.0), 1),
@@ -258,7 +258,7 @@ def cut_out(assembly: Assembly, frame: SteelFrame) -> None:
 
 def _station(bar: SteelElement, row: int, support: BarSupport, within_m: float) -> BarStation:
     """Return where the node of a support is on a bar, so far within its end."""
-    along = float(dot(support.place_m - bar.begin_m, bar.along)) + within_m * (-1.0 if support.end else 1.0)
+    along = float(dot(support.position_m - bar.begin_m, bar.along)) + within_m * (-1.0 if support.end else 1.0)
     return BarStation(row, min(max(along, 0.0), bar.length_m))
 
 
@@ -281,7 +281,7 @@ def _masses_kg(frame: BarFrame, axes: BarAxes, plates: Sequence[JointPlate], den
     """Return the masses of plates, and of bars that are within nodes, by the nodes that they go to."""
     masses: dict[int, float] = {}
     for plate in plates:
-        nearest = int(length(frame.places_m - plate.place_m).argmin())
+        nearest = int(length(frame.places_m - plate.position_m).argmin())
         masses[nearest] = masses.get(nearest, 0.0) + plate.mass_kg
     for bar, node, lost_m in _lost(frame, axes):
         masses[node] = masses.get(node, 0.0) + density_kg_m3 * float(axes.areas_m2[bar]) * lost_m
@@ -377,6 +377,6 @@ def _eccentricities(
     return _rounded(from_nodes_m[0]), _rounded(from_nodes_m[1])
 
 
-def _rounded(place_m: np.ndarray) -> tuple[float, float, float]:
-    x, y, z = (place_m.round(_DIGITS) + 0.0).tolist()
+def _rounded(position_m: np.ndarray) -> tuple[float, float, float]:
+    x, y, z = (position_m.round(_DIGITS) + 0.0).tolist()
     return x, y, z

@@ -58,7 +58,7 @@ class BarSupport:
     """
 
     bar: int
-    place_m: np.ndarray
+    position_m: np.ndarray
     kind: str
     held_by: str
     is_assumed: bool = False
@@ -198,13 +198,13 @@ def _with_one_pinned(found: Sequence[BarSupport]) -> list[BarSupport]:
     assumed = [support for support in found if support.is_assumed]
     if not assumed:
         return list(found)
-    first = min(assumed, key=lambda support: float(support.place_m[0])).held_by
+    first = min(assumed, key=lambda support: float(support.position_m[0])).held_by
     if all(support.held_by == GROUND_NAME for support in assumed):
-        nearest = min(float(support.place_m[0]) for support in assumed)
-        farthest = max(float(support.place_m[0]) for support in assumed)
+        nearest = min(float(support.position_m[0]) for support in assumed)
+        farthest = max(float(support.position_m[0]) for support in assumed)
         limit = 0.5 * (nearest + farthest)
         return [
-            replace(one, kind=PINNED if float(one.place_m[0]) <= limit else ROCKER) if one.is_assumed else one
+            replace(one, kind=PINNED if float(one.position_m[0]) <= limit else ROCKER) if one.is_assumed else one
             for one in found
         ]
     return [replace(one, kind=PINNED if one.held_by == first else ROCKER) if one.is_assumed else one for one in found]
@@ -239,15 +239,15 @@ def _ends_of_frame(bars: Sequence[SteelElement]) -> list[BarSupport]:
         there = [end for end, x in zip(ends, along.tolist(), strict=True) if sign * x <= nearest]
         lowest = min(float(point[2]) for _, point in there)
         for bar, point in there:
-            is_new = all(float(length(point - other.place_m)) > WIDEST_M for other in found)
+            is_new = all(float(length(point - other.position_m)) > WIDEST_M for other in found)
             if float(point[2]) <= lowest + WIDEST_M and is_new:
                 found.append(BarSupport(bar.number, point, ROCKER, GROUND_NAME, is_assumed=True))
     return _with_one_pinned(found)
 
 
-def _end_near(bar: SteelElement, place_m: np.ndarray) -> int | None:
+def _end_near(bar: SteelElement, position_m: np.ndarray) -> int | None:
     """Return the end of a bar, 0 or 1, that a position is near; None for one between its ends."""
-    along = float(dot(place_m - bar.begin_m, bar.along))
+    along = float(dot(position_m - bar.begin_m, bar.along))
     size = float(bar.steel_section.size_m.max())
     if along < size:
         return 0

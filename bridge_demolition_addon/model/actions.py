@@ -90,10 +90,10 @@ class Worksite(Protocol):
     @property
     def structure(self) -> Structure: ...
 
-    def surface_height(self, place_m: Place) -> float:
+    def surface_height(self, position_m: Place) -> float:
         """Return the height of what a falling body meets first at a position; refuse one beside all members."""
 
-    def ground_height(self, place_m: Place) -> float:
+    def ground_height(self, position_m: Place) -> float:
         """Return the height of the ground at a position, minus infinity beyond its edge."""
 
     def member_within(self, centre_m: Point, radius_m: float) -> str | None:

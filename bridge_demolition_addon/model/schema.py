@@ -44,6 +44,13 @@ POSITION = {"unit": "m", "at_least": -FARTHEST_M, "at_most": FARTHEST_M}
 """Unit and limits of a coordinate of anything solid."""
 
 LARGEST_BY_NAME = {"thickness_m": 100.0, "width_m": 1000.0, "diameter_m": 1000.0, "scale": 1e6, "friction": 100.0}
+EARLIER_NAMES = {
+    "place_m": "position_m",
+    "spin_rad_s": "angular_velocity_rad_s",
+    "rest_spin_rad_s": "rest_angular_velocity_rad_s",
+}
+"""Present names of keys, by those that they had before: files with these are still read."""
+
 LARGEST_BY_UNIT = {
     "m": 1e8,
     "m³": 1e9,
@@ -138,6 +145,8 @@ class _TableType(type):
     """Makes a table as it is written, and returns it resolved: with its values as they are kept, and what follows."""
 
     def __call__(cls, *args: Any, **values: Any) -> Any:
+        known = cls.__dataclass_fields__  # type: ignore[attr-defined]
+        values = {name if name in known else EARLIER_NAMES.get(name, name): value for name, value in values.items()}
         table = super().__call__(*args, **values)
         for changes_of in (_kept_values, named_tables, cls.resolved):  # type: ignore[attr-defined]
             if changes := changes_of(table):

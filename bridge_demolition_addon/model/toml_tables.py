@@ -4,16 +4,19 @@ The file of a class holds its own keys under its heading, and the tables in it b
 """
 
 import json
+import logging
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import MISSING, Field, fields
 from difflib import get_close_matches
+from functools import cache
 from pathlib import Path
 from typing import Any, TypeVar
 
 from ..errors import Faults, ScenarioError, UnreadableError
 from ..system.reading import MEGABYTE, file_text
 from .schema import (
+    EARLIER_NAMES,
     Table,
     checked,
     expected,
@@ -57,13 +60,12 @@ _OTHER_WORDS = {
     "fragments": "fracture",
     "hammer": "jackhammers",
     "joints": "connections",
-    "location_m": "place_m",
+    "location_m": "position_m",
     "machines": "equipment",
     "members": "geometry",
     "mesh": "geometry",
     "meshes": "geometry",
     "pillars": "piers",
-    "position_m": "place_m",
     "rebar": "reinforcement",
     "receptors": "neighbours",
     "slab": "deck",
@@ -87,6 +89,8 @@ _OF_ENDING = {
     ),
 }
 """What to do with files of other kinds, by their ending."""
+
+_CONSOLE = logging.getLogger(__name__)
 
 BARE_KEY = re.compile(r"[A-Za-z0-9_-]{1,60}")
 
@@ -204,6 +208,7 @@ def _meant(
     root: type[Table], table: str, values: dict[str, Any], known: Sequence[str], faults: Faults
 ) -> dict[str, Any]:
     """Return the values of known names, and those of unknown ones under the names that are meant; note the unknown."""
+    values = _renamed(table, values, known, faults)
     meant = {name: value for name, value in values.items() if name in known}
     for name in values:
         if name not in known:
@@ -214,6 +219,29 @@ def _meant(
             if alike:
                 meant.setdefault(alike[0], values[name])
     return meant
+
+
+def _renamed(table: str, values: dict[str, Any], known: Sequence[str], faults: Faults) -> dict[str, Any]:
+    """Return values under the present names of keys that had another one before, and say so; refuse both at once."""
+    renamed = {}
+    for name, value in values.items():
+        present = name if name in known else EARLIER_NAMES.get(name, name)
+        if present == name or present not in known:
+            renamed[name] = value
+        elif present in values:
+            faults.found.append(
+                f"{dotted(table, name)} is given with its present name, {present}: expected one of both"
+            )
+        else:
+            renamed[present] = value
+            say_renamed(dotted(table, name), dotted(table, present))
+    return renamed
+
+
+@cache
+def say_renamed(before: str, now: str) -> None:
+    """Say once that a key has another name now."""
+    _CONSOLE.warning("%s is %s now: its earlier name will be refused some day", before, now)
 
 
 def _alike(name: str, known: Sequence[str]) -> list[str]:

@@ -161,7 +161,9 @@ def _on_ground(results: Results) -> dict[str, Any]:
 def rest_watch(scenario: Scenario, motion: GroundMotionOfScene | None) -> Rest:
     """Return the rest that a scenario waits for, on moving ground too."""
     time, motion_end_s = scenario.time, motion.end_s if motion else 0.0
-    return Rest(time.rest_speed_m_s, time.rest_spin_rad_s, time.rest_hold_s, last_event_s(scenario, motion_end_s))
+    return Rest(
+        time.rest_speed_m_s, time.rest_angular_velocity_rad_s, time.rest_hold_s, last_event_s(scenario, motion_end_s)
+    )
 
 
 def _ground_motion(motion: GroundMotionOfScene | None) -> dict[str, Any] | None:
@@ -193,7 +195,7 @@ def _of_scenario(
 def _touchdown(scenario: Scenario, results: Results) -> dict[str, Any]:
     """Touchdown vibration at each neighbour, by its name; None where nothing fell."""
     landed = landings(results)
-    shaken = ((neighbour.name, shaking_at(neighbour.place_m, landed)) for neighbour in scenario.neighbours)
+    shaken = ((neighbour.name, shaking_at(neighbour.position_m, landed)) for neighbour in scenario.neighbours)
     return {name: shaking and asdict(shaking) for name, shaking in shaken}
 
 
@@ -209,7 +211,7 @@ def _charges(scenario: Scenario, recording: Recording) -> dict[str, Any] | None:
         "charges": [
             {
                 "name": charge.name,
-                "place_m": charge.place_m,
+                "place_m": charge.position_m,
                 "mass_kg": charge.mass_kg,
                 "explosive": charge.explosive,
                 "tnt_kg": charge.tnt_kg,

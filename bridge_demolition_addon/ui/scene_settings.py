@@ -15,14 +15,14 @@ from .languages.words import in_own_context
 from .preview.prop import PreviewRunProperties
 from .results.report_language import ReportProperties
 from .scenario import prop as scenario_properties
-from .scenario.earlier import mark_defaults, read_earlier_bodies, read_earlier_defaults
+from .scenario.earlier import mark_defaults, read_earlier_bodies, read_earlier_defaults, read_earlier_keys
 from .scenario.preset_menu import PresetProperties
 from .sections.prop import SectionProperties
 from .sidebar import path_property, tooltip
 from .stages.shown import StageProperties
 from .viewport import redraw_views
 
-_READERS = (read_earlier_files, read_earlier_bodies, read_earlier_defaults)
+_READERS = (read_earlier_files, read_earlier_keys, read_earlier_bodies, read_earlier_defaults)
 """What reads values of files of earlier versions."""
 
 

@@ -38,8 +38,8 @@ LOADED = {"all loaded": 1, "one in 20": 20, "none": 0}
 """One shard in so many is loaded."""
 
 CHARGES = (
-    Charge(name="west", place_m=(7.0, 0.0, 1.0), mass_kg=1e-6),
-    Charge(name="east", place_m=(22.0, 0.0, 1.0), mass_kg=1e-6),
+    Charge(name="west", position_m=(7.0, 0.0, 1.0), mass_kg=1e-6),
+    Charge(name="east", position_m=(22.0, 0.0, 1.0), mass_kg=1e-6),
 )
 """So small that they load every shard and move none: the frames to compare do the same work otherwise."""
 
@@ -89,7 +89,7 @@ def _ways(shards: int) -> dict[str, Callable[[], float]]:
 
 def _in_the_way_of_2019(shards: int) -> float:
     scene = build_scene(deck(shards))
-    with blast_by_fields(scene, np.array(CHARGES[0].place_m)):
+    with blast_by_fields(scene, np.array(CHARGES[0].position_m)):
         return _least(scene)
 
 

@@ -41,7 +41,7 @@ def main(smallest: bool) -> None:
         bpy.ops.bda.new_scenario()
         scene.bda.scenario.fracture.shards = shards
         bpy.ops.bda.build_scenario()
-        create_charges(scene, [Charge(name=f"{shards} {n}", place_m=(n, 0, 1), mass_kg=1.0) for n in range(CHARGES)])
+        create_charges(scene, [Charge(name=f"{shards} {n}", position_m=(n, 0, 1), mass_kg=1.0) for n in range(CHARGES)])
         print(f"{shards} shards: {milliseconds(panels, scene):.2f} ms")
     bridge_demolition_addon.unregister()
 

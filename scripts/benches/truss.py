@@ -54,11 +54,11 @@ def truss(spans: int, pieces: int) -> Scenario:
     """Return so many spans of the example with so many pieces of each bar, on supports, which nothing severs."""
     scenario = read_scenario(EXAMPLE)
     [one] = scenario.steelwork.trusses
-    x_m, *beside_m = one.place_m
+    x_m, *beside_m = one.position_m
     places_m = [(x_m + number * (one.length_m + GAP_M), *beside_m) for number in range(spans)]
     in_a_row = [
-        replace(one, name=f"span {number}", place_m=place_m, is_supported=True)
-        for number, place_m in enumerate(places_m, start=1)
+        replace(one, name=f"span {number}", position_m=position_m, is_supported=True)
+        for number, position_m in enumerate(places_m, start=1)
     ]
     steelwork = replace(scenario.steelwork, nodes=(), members=(), trusses=tuple(in_a_row), pieces=pieces)
     awake = ShardSettings(use_deactivation=False, start_deactivated=False)

@@ -58,12 +58,12 @@ class Beams:
         self.masses = dict.fromkeys(self.tags.values(), 0.0)
         self.elements: dict[str, list[int]] = {}
         for name, node in frame.nodes.items():
-            ops.node(self.tags[name], *node.place_m)
+            ops.node(self.tags[name], *node.position_m)
             self.masses[self.tags[name]] += node.mass_kg
             if node.is_fixed:
                 ops.fix(self.tags[name], *[1] * 6)
         for name, (begin, end, section) in frame.bars.items():
-            places = np.array(frame.nodes[begin].place_m), np.array(frame.nodes[end].place_m)
+            places = np.array(frame.nodes[begin].position_m), np.array(frame.nodes[end].position_m)
             self._add_bar(name, self.tags[begin], self.tags[end], places, section)
 
     def _add_bar(self, name: str, begin: int, end: int, places: tuple[np.ndarray, np.ndarray], section: str) -> None:

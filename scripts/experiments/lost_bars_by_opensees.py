@@ -81,7 +81,7 @@ class Frame:
         tags = {name: number for number, name in enumerate(self.nodes, 1)}
         masses = {tags[name]: node.mass_kg for name, node in self.nodes.items()}
         for name, node in self.nodes.items():
-            ops.node(tags[name], *node.place_m)
+            ops.node(tags[name], *node.position_m)
             if node.support == "fixed":
                 ops.fix(tags[name], *[1] * 6)
         beams = {}

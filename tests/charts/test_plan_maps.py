@@ -45,8 +45,8 @@ def test_names_of_zones_side_by_side_are_not_over_each_other():
 
 @pytest.mark.parametrize("x_m", [-100.0, 0.0, 100.0])
 def test_a_long_name_of_a_neighbour_stays_on_the_map(x_m):
-    house = Neighbour(name="Old mill with a very long name beside the river", place_m=(x_m, 30.0, 1.5))
-    charge = Charge(name="West", place_m=(0.0, 0.0, 1.0), mass_kg=60.0)
+    house = Neighbour(name="Old mill with a very long name beside the river", position_m=(x_m, 30.0, 1.5))
+    charge = Charge(name="West", position_m=(0.0, 0.0, 1.0), mass_kg=60.0)
     bridge = CrossSection.square((11.0, 6.0))
     figure, boxes = drawn(
         lambda figure: overpressure_map(figure, [charge], bridge, [house], BlastModel("kingery-bulmash"))

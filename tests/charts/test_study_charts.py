@@ -22,7 +22,10 @@ from bridge_demolition_addon.model.scenario import Neighbour
 REACHES_M = np.array([3.0, 1.0, np.inf, 2.0, 6.0, 4.0, 5.0, 7.0])
 
 
-NEIGHBOURS = (Neighbour(name="House", place_m=(15.0, 3.0, 2.0)), Neighbour(name="Town", place_m=(5000.0, 0.0, 2.0)))
+NEIGHBOURS = (
+    Neighbour(name="House", position_m=(15.0, 3.0, 2.0)),
+    Neighbour(name="Town", position_m=(5000.0, 0.0, 2.0)),
+)
 
 
 @pytest.fixture

@@ -455,8 +455,8 @@ def said_after(scenario, name):
 
 
 def test_charges_that_lie_in_a_member_or_far_away_are_said():
-    def charged(place_m):
-        return replace(I235, ball=None, charges=(Charge(place_m=place_m, mass_kg=8.0),))
+    def charged(position_m):
+        return replace(I235, ball=None, charges=(Charge(position_m=position_m, mass_kg=8.0),))
 
     # The deck is 0.25 m thick, and its top 5.55 m above the ground.
     assert said_after(charged((6.5, 0.0, 5.4)), "unusual") == [
@@ -477,7 +477,7 @@ def test_a_bridge_to_which_nothing_is_done_is_said():
 
 def test_equipment_is_listed_with_what_is_odd_about_it():
     def with_excavator(**values):
-        excavator = Equipment(**{"name": "excavator", "footprint_m": (4.0, 3.0), "place_m": (6.5, 0.0)} | values)
+        excavator = Equipment(**{"name": "excavator", "footprint_m": (4.0, 3.0), "position_m": (6.5, 0.0)} | values)
         return replace(I235, equipment=(excavator,))
 
     assert said_after(with_excavator(mass_kg=24000.0), "excavator") == ["24 t at (6.5, 0) m"]
@@ -486,7 +486,7 @@ def test_equipment_is_listed_with_what_is_odd_about_it():
         "equipment.mass_kg is 24: give it in kg, not in t",
     ]
     # The deck ends at 13.5 m: of 4 m along the road from 11.5 to 15.5, the half is beyond it.
-    beside = with_excavator(mass_kg=24000.0, place_m=(13.5, 0.0))
+    beside = with_excavator(mass_kg=24000.0, position_m=(13.5, 0.0))
     assert said_after(beside, "excavator")[1:] == ["50% of what it stands on is beside the bridge: move it"]
 
 

@@ -31,7 +31,7 @@ def test_numbers_of_elements_and_brackets_are_left_out(capsys, name):
 def test_a_table_is_explained_with_its_keys(capsys):
     said = explained(capsys, "[[charges]]")
     assert said.startswith("[[charges]], as often as needed\n  A bare charge.")
-    assert "\n  place_m: a list of 3 numbers from -10000.0 to 10000.0 (m); required\n" in said
+    assert "\n  position_m: a list of 3 numbers from -10000.0 to 10000.0 (m); required\n" in said
 
 
 def test_a_name_of_several_keys_explains_all_of_them(capsys):

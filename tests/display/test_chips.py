@@ -24,7 +24,7 @@ def test_there_are_none_before_anything_breaks():
 
 
 def test_they_fly_off_where_it_broke():
-    assert np.abs(middles(SINCE_S) - CLOUD.place_m).max() < CLOUD.radius_m
+    assert np.abs(middles(SINCE_S) - CLOUD.position_m).max() < CLOUD.radius_m
 
 
 def test_they_fall_with_gravity_alone():
@@ -37,7 +37,7 @@ def test_they_stay_on_the_ground_near_by():
     late, later = CHIPS.at(20.0).vertices, CHIPS.at(30.0).vertices
     assert np.array_equal(late, later)
     assert late[:, 2].min() > -0.05 and late[:, 2].max() < 0.2
-    assert np.abs(late[:, :2] - CLOUD.place_m[:2]).max() < 8.0  # no forecast of what flies far
+    assert np.abs(late[:, :2] - CLOUD.position_m[:2]).max() < 8.0  # no forecast of what flies far
 
 
 def test_every_call_gives_the_same():

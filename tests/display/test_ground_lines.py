@@ -79,7 +79,7 @@ def test_a_flash_begins_with_the_detonation_fades_and_ends():
 def test_dust_rises_where_and_when_a_connection_breaks():
     # The lower connection, at 16 m of height, holds in frame 5 and not in frame 6; its area is 0.5 m².
     (cloud,) = puffs(hanging_chain())
-    assert cloud.frame == 6 and cloud.place_m == pytest.approx((0.0, 0.0, 16.0))
+    assert cloud.frame == 6 and cloud.position_m == pytest.approx((0.0, 0.0, 16.0))
     assert cloud.radius_m == pytest.approx(1.2 * math.sqrt(0.5))
 
 

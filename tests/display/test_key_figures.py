@@ -38,7 +38,7 @@ def test_what_came_down_counts_with_its_mass_its_area_and_its_distance(chain):
     # Its section of 0.5 m², with its middle at (3, 4); the bridge covers 1 m² around the origin.
     half = math.sqrt(0.5) / 2.0
     assert figures.area.area() == pytest.approx(0.5)
-    np.testing.assert_allclose(figures.farthest.place_m, (3.0 + half, 4.0 + half))
+    np.testing.assert_allclose(figures.farthest.position_m, (3.0 + half, 4.0 + half))
     assert figures.farthest.distance_m == pytest.approx(math.hypot(3.0 + half - 0.5, 4.0 + half - 0.5))
 
 

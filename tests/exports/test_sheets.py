@@ -100,7 +100,7 @@ def test_every_column_is_listed_with_its_unit(workbook):
         ("projected_area_m2", "m²"),
         ("density_kg_m3", "kg/m³"),
         ("made_by_solver_J", "J"),
-        ("spin_rad_s", "rad/s"),
+        ("angular_velocity_rad_s", "rad/s"),
         ("member", ""),
         ("asleep", ""),
     ],

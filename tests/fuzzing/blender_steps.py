@@ -240,7 +240,7 @@ class BlenderPlayer(Player):
                 "kind": random.choice(("TARGET", "DROP", "CHARGE")),
                 "index": random.randrange(3),
                 "is_upright": random.random() < 0.5,
-                "place_m": [random.choice((-5.0, 0.0, 3.7, 1e6)) for _ in range(3)],
+                "position_m": [random.choice((-5.0, 0.0, 3.7, 1e6)) for _ in range(3)],
             },
             "import_ifc": lambda: {"filepath": self._path(random)},
             "go_to_body": lambda: {"body": random.choice(names), "frame": random.randrange(LONGEST_FRAMES)},

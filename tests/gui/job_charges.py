@@ -125,7 +125,7 @@ def place_charges(person: Person, panels: Panels) -> Steps:
     scene = person.scene
     yield from panels.show_only("Charges in the Open")
     yield from person.click("bda.add_source_point")
-    x, y, z = charges(scene)[0].place_m
+    x, y, z = charges(scene)[0].position_m
     at_face = math.isclose(abs(y), FACE_ACROSS_M, abs_tol=1e-5)
     person.expect("a charge is at a face of a column of the first pier, 1 m up", (x, at_face, z), (0.0, True, 1.0))
     scene.objects["Charge 1"].location = (0.0, 0.0, 0.0)
@@ -140,11 +140,11 @@ def place_charges(person: Person, panels: Panels) -> Steps:
     yield 0.3
     found = charges(scene)[0]
     person.expect("it has the name and mass of the row", (found.name, found.mass_kg), (WEST, MASS_KG))
-    person.expect("G Z 1 moves it up by a metre", found.place_m, (0.0, 0.0, 1.0))
+    person.expect("G Z 1 moves it up by a metre", found.position_m, (0.0, 0.0, 1.0))
 
     yield from cursor_to_the_deck(person)
     yield from person.click("bda.add_source_point")
-    person.expect("the second is where the mouse was", charges(scene)[1].place_m, tuple(scene.cursor.location))
+    person.expect("the second is where the mouse was", charges(scene)[1].position_m, tuple(scene.cursor.location))
     yield from rename(person, "Charge 2", EAST)
     yield from person.fill_in(MASS, f"{MASS_KG:g}", of=EAST)
     yield from person.fill_in(DELAY, f"{DELAY_S:g}", of=EAST)
@@ -152,7 +152,7 @@ def place_charges(person: Person, panels: Panels) -> Steps:
     yield from type_place(person)
     found = charges(scene)[1]
     expected = (EAST, MASS_KG, EXPLOSIVE, EAST_M)
-    person.expect("its place is as typed", (found.name, found.mass_kg, found.explosive, found.place_m), expected)
+    person.expect("its place is as typed", (found.name, found.mass_kg, found.explosive, found.position_m), expected)
     person.expect("its delay is as typed", math.isclose(found.delay_s, DELAY_S, rel_tol=1e-6))
 
     yield from person.click("bda.add_source_point")

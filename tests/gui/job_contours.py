@@ -147,4 +147,4 @@ def add_charge(person: Person) -> None:
     charge = module("model.blast.charges").Charge
     create = module("scene.blast.charges").create_charges
     positions = {"Charge A": (1.0, 0.0, 1.0), "Charge B": (7.0, 0.0, 1.0)}
-    create(person.scene, [charge(name=name, place_m=position, mass_kg=0.4) for name, position in positions.items()])
+    create(person.scene, [charge(name=name, position_m=position, mass_kg=0.4) for name, position in positions.items()])

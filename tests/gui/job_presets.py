@@ -73,7 +73,7 @@ def add_a_charge(person: Person, panels: Panels) -> Steps:
     yield from panels.show_only("Charges in the Open")
     yield from person.click("bda.add_source_point")
     (charge,) = module("scene.blast.charges").charges_of(person.scene)
-    person.expect("it is 1 m up", abs(charge.place_m[2] - 1.0) < 1e-5)
+    person.expect("it is 1 m up", abs(charge.position_m[2] - 1.0) < 1e-5)
     person.expect("and near the ground", charge.burst, "surface")
     yield from person.picture("charge")
     person.take_reports()

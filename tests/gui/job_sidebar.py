@@ -70,7 +70,7 @@ def make_many(person: Person) -> Steps:
     positions = [(0.08 * number, 0.0, 2.0) for number in range(CHARGES)]
     create(
         person.scene,
-        [charge(name=f"Charge {n}", place_m=position, mass_kg=1.0) for n, position in enumerate(positions, 1)],
+        [charge(name=f"Charge {n}", position_m=position, mass_kg=1.0) for n, position in enumerate(positions, 1)],
     )
     settings.charge_index = 5
     yield 0.5

@@ -34,7 +34,7 @@ def imported(made, tmp_path, **settings):
 
 def node_at(steelwork, place):
     """Name of the node at a place."""
-    return next(node.name for node in steelwork.nodes if np.allclose(node.place_m, place, atol=1e-4))
+    return next(node.name for node in steelwork.nodes if np.allclose(node.position_m, place, atol=1e-4))
 
 
 def bar_between(steelwork, one, other):
@@ -57,7 +57,7 @@ def test_forces_of_a_truss_of_files_are_those_of_the_method_of_joints(plain_trus
     assert "  all axes meet in their nodes" in lines
     places, bars = warren_truss()
     steelwork = scenario.steelwork
-    above = min(node.place_m[2] for node in steelwork.nodes)
+    above = min(node.position_m[2] for node in steelwork.nodes)
     names = {name: node_at(steelwork, (x, 0.0, above + z)) for name, (x, z) in places.items()}
     loaded = [names[f"L{number}"] for number in range(1, 8)]
     nodes = tuple(replace(node, mass_kg=CARRIED_KG) if node.name in loaded else node for node in steelwork.nodes)
@@ -84,7 +84,7 @@ def test_forces_of_a_truss_of_files_are_those_of_the_method_of_joints(plain_trus
 def test_supports_of_a_truss_on_nothing_are_under_its_lowest_ends(plain_truss):
     lines, scenario, _ = plain_truss
     held = {
-        round(node.place_m[0], 4): (node.support, node.held_by) for node in scenario.steelwork.nodes if node.support
+        round(node.position_m[0], 4): (node.support, node.held_by) for node in scenario.steelwork.nodes if node.support
     }
     assert held == {0.0: ("pinned", "ground"), 32.0: ("rocker", "ground")}
     assert any("nothing holds Lower chord" in line and "2 supports on the ground" in line for line in lines)
@@ -108,7 +108,7 @@ def test_a_frame_with_clipped_ends_is_joined_at_its_corners(tmp_path):
     assert len(steelwork.nodes) == 4
     feet = [node for node in steelwork.nodes if node.support]
     assert [(node.support, node.held_by) for node in feet] == [("fixed", "Footing 1"), ("fixed", "Footing 2")]
-    corners = sorted(node.place_m for node in steelwork.nodes if not node.support)
+    corners = sorted(node.position_m for node in steelwork.nodes if not node.support)
     # Plates of the feet are 2 mm clear of the footings: hulls that reach into each other are thrown apart in a run.
     # Corners are where axes meet. That of the angle runs 12 mm beside, and moves the node by its share, the square of
     # (12.3 · 0.16) / (78.1 · 0.28), or 0.1 mm.
@@ -164,7 +164,7 @@ def on_bearings(tmp_path_factory):
 
 def test_bearings_become_supports_of_nodes_on_what_they_lie_on(on_bearings):
     _, scenario, _ = on_bearings
-    held = {(node.place_m[0], node.support, node.held_by) for node in scenario.steelwork.nodes if node.support}
+    held = {(node.position_m[0], node.support, node.held_by) for node in scenario.steelwork.nodes if node.support}
     assert {(round(x, 3), support, below) for x, support, below in held} == {
         (0.5, "rocker", "Abutment 1"),
         (10.5, "pinned", "Crosshead"),

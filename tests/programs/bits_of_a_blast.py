@@ -24,8 +24,8 @@ quarter_turns = np.array(
     [[[1, 0, 0], [0, 0, -1], [0, 1, 0]], [[0, 0, 1], [0, 1, 0], [-1, 0, 0]], [[0, -1, 0], [1, 0, 0], [0, 0, 1]]]
 )
 charges = [
-    Charge(place_m=(0.0, 0.0, 1.0), mass_kg=40.0),
-    Charge(place_m=(6.0, 2.0, 0.0), mass_kg=15.0, explosive="C-4", delay_ms=9.0, burst="surface"),
+    Charge(position_m=(0.0, 0.0, 1.0), mass_kg=40.0),
+    Charge(position_m=(6.0, 2.0, 0.0), mass_kg=15.0, explosive="C-4", delay_ms=9.0, burst="surface"),
 ]
 digest = hashlib.sha256()
 for model in BlastModel:

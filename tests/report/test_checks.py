@@ -44,5 +44,5 @@ def test_limits_follow_from_the_scenario():
     concrete = ConnectionSettings(type="FIXED", method="face", material="concrete", stiffness="elastic")
     elastic = " ".join(limits_of(replace(I235, connections=concrete)))
     assert "nothing bends" not in elastic and "connections deform" in elastic and "One breaking force" not in elastic
-    charged = replace(I235, charges=(Charge(place_m=(6.5, 0.0, 1.0), mass_kg=1.0),))
+    charged = replace(I235, charges=(Charge(position_m=(6.5, 0.0, 1.0), mass_kg=1.0),))
     assert "Pressures of blast behind" in " ".join(limits_of(charged))

@@ -163,7 +163,7 @@ def test_tables_hold_what_the_results_say(whole):
     landed = landings(results)
     shaken = {row["neighbour"]: float(row["peak_particle_velocity_mm_s"]) for row in table(folder, "touchdown")}
     expected = {
-        neighbour.name: 1e3 * shaking_at(neighbour.place_m, landed).velocity_m_s for neighbour in TOLD.neighbours
+        neighbour.name: 1e3 * shaking_at(neighbour.position_m, landed).velocity_m_s for neighbour in TOLD.neighbours
     }
     assert shaken == pytest.approx(expected)
     assert max(shaken.values()) > 0.1
@@ -209,7 +209,7 @@ def test_the_map_of_a_charge_whose_rings_do_not_reach_the_ground_shows_the_bridg
     figure = Figure()
     bridge = CrossSection.square((9.0, 4.0))
     overpressure_map(
-        figure, [Charge(name="high", place_m=place, mass_kg=0.001)], bridge, (), BlastModel.KINGERY_BULMASH
+        figure, [Charge(name="high", position_m=place, mass_kg=0.001)], bridge, (), BlastModel.KINGERY_BULMASH
     )
     figure.canvas.draw()
     left, right = figure.axes[0].get_xlim()

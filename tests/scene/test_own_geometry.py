@@ -19,7 +19,7 @@ from bridge_demolition_addon.scene.demolition import build_demolition
 @pytest.fixture
 def scenario(tmp_path):
     (tmp_path / "pier.obj").write_bytes(exported(box([1, 1, 4], [0, 0, 2]), ".obj"))
-    pier = Geometry(name="pier", file=str(tmp_path / "pier.obj"), density_kg_m3=2400, place_m=[20, 0, 0])
+    pier = Geometry(name="pier", file=str(tmp_path / "pier.obj"), density_kg_m3=2400, position_m=[20, 0, 0])
     ball = Ball(mass_kg=1000, diameter_m=1, target_m=[20.2, 0.3], drop_height_m=3)
     return replace(I235, bridge=None, geometry=[pier], ball=ball, fracture=FractureSettings(shards=12))
 

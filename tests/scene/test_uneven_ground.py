@@ -25,7 +25,7 @@ def ground_of(height, cells=32, step=0.5):
     return thinned(grid, 0.005, np.zeros(grid.heights.shape, bool), 8.0)
 
 
-def at_rest(blender, height, shape, mesh, place_m, seconds=8):
+def at_rest(blender, height, shape, mesh, position_m, seconds=8):
     """Where the middle of a body is that fell on ground of a height, and the body's axes."""
     from bridge_demolition_addon.scene.bodies import Kind, create_body, create_terrain, mesh_of, set_surface
     from bridge_demolition_addon.scene.world import create_world
@@ -34,7 +34,7 @@ def at_rest(blender, height, shape, mesh, place_m, seconds=8):
     world = create_world(scene, TimeSettings(duration_s=10.0), 24 * seconds)
     create_terrain(world, ground_of(height), SurfaceValues(0.8, 0.0))
     body = create_body(world, mesh_of("Body", mesh), Kind.SHARD, shape)
-    body.location, body.rigid_body.mass = place_m, 1000.0
+    body.location, body.rigid_body.mass = position_m, 1000.0
     set_surface(body.rigid_body, SurfaceValues(0.8, 0.0), 0.0)
     body.rigid_body.linear_damping, body.rigid_body.angular_damping = 0.3, 0.6
     for frame in range(1, 24 * seconds + 1):

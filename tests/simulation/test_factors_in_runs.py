@@ -134,7 +134,7 @@ def test_twice_the_pressure_throws_a_block_twice_as_fast(blender, tmp_path, appl
             apply = "{apply}"
             pressure_factor = {factor}
             [[charges]]
-            place_m = [-5.0, 0.0, 200.0]
+            position_m = [-5.0, 0.0, 200.0]
             mass_kg = 10.0
             """
         )

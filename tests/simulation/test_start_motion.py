@@ -26,7 +26,7 @@ substeps_per_frame = 20
 [[geometry]]
 name = "block"
 file = "block.obj"
-place_m = [0.0, 0.0, {height_m}]
+position_m = [0.0, 0.0, {height_m}]
 density_kg_m3 = 1000.0
 {more}
 
@@ -87,7 +87,7 @@ def test_a_block_tossed_as_far_as_its_speed_carries_it_is_no_doubtful_throw(blen
 
 def test_a_spin_turns_a_member_of_many_shards_as_one(blender, write, tmp_path):
     """About its longest axis, which is a principal one: it turns evenly, and its middle falls straight down."""
-    results = run(write("spin_rad_s = [3.0, 0.0, 0.0]", shards=8), tmp_path)
+    results = run(write("angular_velocity_rad_s = [3.0, 0.0, 0.0]", shards=8), tmp_path)
     shards = results.inventory.of_kind("shard")
     masses = results.inventory.masses_kg[shards]
     middle = np.average(results.frames.positions_m[:, shards], axis=1, weights=masses)

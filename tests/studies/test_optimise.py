@@ -74,7 +74,7 @@ def test_the_smallest_charge_is_found_and_confirmed_and_a_stopped_one_goes_on(tm
         (("[1.0, 0.0, 9.5]", "[9.5, 0.0, 9.5]"), "expected no coordinate below that of places.lowest_corner_m"),
         (("[1.0, 0.0, 9.5]", "[9.0, 0.0, 9.5]"), "expected a coordinate above"),
         (("[9.0, 0.0, 9.5]", "[9.0, 0.0]"), "expected 3 numbers, as in lowest_corner_m"),
-        (("charges.one.place_m", "charges.place_m"), "expected one of them, such as charges.one.place_m"),
+        (("charges.one.position_m", "charges.position_m"), "expected one of them, such as charges.one.position_m"),
         (('"charges.one.delay_ms", ', ""), "orders.keys is"),
         (("charges.one.delay_ms", "charges.one.mass_kg"), "charges.one.mass_kg is named more than once"),
         (('objective = "charge"', 'objective = "vibration"'), "optimise.neighbour is"),
@@ -104,7 +104,7 @@ def test_places_and_orders_become_values_of_the_scenario(tmp_path):
     assert found.space.size == 4
     run = found.run_of(3, [0.5, 0.25, 0.9, 0.1])
     one, other = run.scenario.charges
-    assert one.place_m == (3.0, 0.0, 9.5) and (one.delay_ms, other.delay_ms) == (20.0, 0.0)
+    assert one.position_m == (3.0, 0.0, 9.5) and (one.delay_ms, other.delay_ms) == (20.0, 0.0)
     assert one.mass_kg == other.mass_kg == pytest.approx(0.316228, rel=1e-5)
     same_number = found.run_of(3, [0.1, 0.1, 0.1, 0.9])
     assert same_number.scenario.seed == run.scenario.seed != found.run_of(4, [0.5, 0.25, 0.9, 0.1]).scenario.seed

@@ -20,9 +20,9 @@ ARRIVAL_AT_5_S, END_AT_5_S = 8.995e-3, 8.995e-3 + 3.333e-3
 """When its pressure begins and ends; the same source."""
 
 
-def charge(name: str, place_m: Sequence[float], mass_kg: float, delay_s: float = 0.0) -> Charge:
+def charge(name: str, position_m: Sequence[float], mass_kg: float, delay_s: float = 0.0) -> Charge:
     """A charge of TNT in free air."""
-    return Charge(name=name, place_m=tuple(place_m), mass_kg=mass_kg, delay_ms=1e3 * delay_s)
+    return Charge(name=name, position_m=tuple(position_m), mass_kg=mass_kg, delay_ms=1e3 * delay_s)
 
 
 def set_off(blocks: Blocks, charges: Sequence[Charge], apply: str, explosion: bool = True, **options: float) -> None:

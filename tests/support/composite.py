@@ -45,7 +45,7 @@ stiffness = "elastic"
 pieces = {pieces}
 
 [[steelwork.girders]]
-place_m = [0.0, 0.0, 8.0]
+position_m = [0.0, 0.0, 8.0]
 span_lengths_m = {spans}
 girders = 2
 spacing_m = 2.0

@@ -61,7 +61,7 @@ def axes_of_supports(scenario: Scenario) -> list[float]:
     if scenario.bridge:
         return pier_axes(scenario.bridge).tolist()
     spans = scenario.steelwork.decks if scenario.steelwork else ()
-    return [span.place_m[0] + along_m for span in spans for along_m in accumulate(span.span_lengths_m, initial=0.0)]
+    return [span.position_m[0] + along_m for span in spans for along_m in accumulate(span.span_lengths_m, initial=0.0)]
 
 
 def times(run: ExampleRun) -> dict[str, float | None]:

@@ -81,7 +81,7 @@ class ExampleRun:
 
     def outwards(self, charge, bodies, step):
         """Cosine of the angle between the velocity of each body and its direction from a charge, (n,)."""
-        directions = self.results.frames.positions_m[0, bodies] - np.array(charge.place_m)
+        directions = self.results.frames.positions_m[0, bodies] - np.array(charge.position_m)
         velocities = self.results.frames.velocities_m_s[step, bodies]
         lengths = np.linalg.norm(directions, axis=1) * np.linalg.norm(velocities, axis=1)
         return (directions * velocities).sum(axis=1) / np.maximum(lengths, 1e-12)
@@ -89,7 +89,7 @@ class ExampleRun:
     def near(self, charge, distance_m):
         """Shards whose centres of mass are at first within a distance of a charge."""
         positions = self.results.frames.positions_m[0, self.shards]
-        return self.shards[np.linalg.norm(positions - np.array(charge.place_m), axis=1) < distance_m]
+        return self.shards[np.linalg.norm(positions - np.array(charge.position_m), axis=1) < distance_m]
 
 
 MEASURED_S = {

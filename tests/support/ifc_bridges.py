@@ -95,8 +95,8 @@ class IfcBridge:
         guid = ifcopenshell.guid.new()
         return self.file.create_entity(kind, GlobalId=guid, OwnerHistory=self.owner, Name=name, **attributes)
 
-    def point(self, *place_m):
-        return self.file.create_entity("IfcCartesianPoint", tuple(coordinate / self.metre for coordinate in place_m))
+    def point(self, *position_m):
+        return self.file.create_entity("IfcCartesianPoint", tuple(coordinate / self.metre for coordinate in position_m))
 
     def direction(self, *ratios):
         return self.file.create_entity("IfcDirection", tuple(float(ratio) for ratio in ratios))
@@ -115,13 +115,13 @@ class IfcBridge:
             self.parts[kind] = made
         return self.parts[kind]
 
-    def solid(self, size_m, place_m):
+    def solid(self, size_m, position_m):
         """An upright box: its size, and the middle of its underside."""
         make = self.file.create_entity
         profile = make(
             "IfcRectangleProfileDef", "AREA", None, self.flat(), size_m[0] / self.metre, size_m[1] / self.metre
         )
-        at = make("IfcAxis2Placement3D", self.point(*place_m), self.direction(0, 0, 1), self.direction(1, 0, 0))
+        at = make("IfcAxis2Placement3D", self.point(*position_m), self.direction(0, 0, 1), self.direction(1, 0, 0))
         return make("IfcExtrudedAreaSolid", profile, at, self.direction(0, 0, 1), size_m[2] / self.metre)
 
     def element(self, kind, name, shape, part, *, predefined=None, material=None, shape_type="SweptSolid"):
@@ -142,8 +142,8 @@ class IfcBridge:
             self.root("IfcRelAssociatesMaterial", None, RelatedObjects=[made], RelatingMaterial=material)
         return made
 
-    def box(self, kind, name, size_m, place_m, part, **more):
-        return self.element(kind, name, self.solid(size_m, place_m), part, **more)
+    def box(self, kind, name, size_m, position_m, part, **more):
+        return self.element(kind, name, self.solid(size_m, position_m), part, **more)
 
     def material(self, name, density_kg_m3=None):
         make = self.file.create_entity

@@ -33,16 +33,16 @@ start_s = 0.1
 apply = "direct"
 [[charges]]
 name = "one"
-place_m = [3.0, 0.0, 9.5]
+position_m = [3.0, 0.0, 9.5]
 mass_kg = 1.0
 [[charges]]
 name = "other"
-place_m = [-3.0, 0.0, 9.5]
+position_m = [-3.0, 0.0, 9.5]
 mass_kg = 1.0
 delay_ms = 20.0
 [[neighbours]]
 name = "house"
-place_m = [50.0, 0.0, 0.0]
+position_m = [50.0, 0.0, 0.0]
 """
 OPTIMISE = """
 [optimise]
@@ -64,7 +64,7 @@ highest = 100.0
 logarithmic = true
 
 [[places]]
-key = "charges.one.place_m"
+key = "charges.one.position_m"
 lowest_corner_m = [1.0, 0.0, 9.5]
 highest_corner_m = [9.0, 0.0, 9.5]
 

@@ -96,7 +96,7 @@ def _of_runs(folder: Path) -> Iterator[Report]:
         TOLD,
         removals=(Removal(time_s=0.3, members=("pier 1",)),),
         weakenings=(Weakening(time_s=0.1, members=("deck",), factor=0.5),),
-        equipment=(Equipment(name="Digger", mass_kg=2e4, place_m=(3.0, 0.0), footprint_m=(4.0, 2.0)),),
+        equipment=(Equipment(name="Digger", mass_kg=2e4, position_m=(3.0, 0.0), footprint_m=(4.0, 2.0)),),
         exclusion=Exclusion(buffer_m=5, designed_drop_m=1, cordon_m=300),
     )
     folders = [_run(folder / "with everything", done), _run(folder / "bare", replace(TOLD, zones=(), neighbours=()))]

@@ -27,10 +27,13 @@ TOLD = replace(
     site=Site(latitude_deg=41.6, longitude_deg=-93.6),
     blast=BlastSettings(start_s=0.2),
     charges=(
-        Charge(place_m=(0, 0, 1), mass_kg=5, explosive="C-4"),
-        Charge(place_m=(13, 0, 1), mass_kg=2, delay_ms=25),
+        Charge(position_m=(0, 0, 1), mass_kg=5, explosive="C-4"),
+        Charge(position_m=(13, 0, 1), mass_kg=2, delay_ms=25),
     ),
-    neighbours=(Neighbour(name="House", place_m=(40, 30, 2)), Neighbour(name="School & yard", place_m=(-60, 10, 2))),
+    neighbours=(
+        Neighbour(name="House", position_m=(40, 30, 2)),
+        Neighbour(name="School & yard", position_m=(-60, 10, 2)),
+    ),
 )
 """A scenario with everything that a report tells of, and names that want escaping."""
 

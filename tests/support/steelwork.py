@@ -38,7 +38,7 @@ def steel_scenario(nodes: list[dict], members: list[dict], tables: str = "", **s
 
 
 def node(name: str, x: float, z: float, y: float = 0.0, **keys) -> dict:
-    return {"name": name, "place_m": [x, y, z], **keys}
+    return {"name": name, "position_m": [x, y, z], **keys}
 
 
 def bar(name: str, begin: str, end: str, section: str, **keys) -> dict:

@@ -33,7 +33,10 @@ TOLD_SCENARIO = replace(
     ),
     exclusion=Exclusion(buffer_m=5, designed_drop_m=1),
     site=Site(latitude_deg=41.6, longitude_deg=-93.6),
-    neighbours=(Neighbour(name="House & $home$", place_m=(20, 24, 2)), Neighbour(name="School", place_m=(-20, -18, 2))),
+    neighbours=(
+        Neighbour(name="House & $home$", position_m=(20, 24, 2)),
+        Neighbour(name="School", position_m=(-20, -18, 2)),
+    ),
 )
 """A scenario with everything that a plan shows, and names that want escaping."""
 

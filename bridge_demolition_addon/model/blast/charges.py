@@ -81,7 +81,9 @@ class Charge(PlannedAction):
     is_object: ClassVar[bool] = True
 
     name: str | None = key("What it is called in the logs; by default Charge and its number.", default=None)
-    place_m: tuple[float, float, float] = key("Position: along the road, across it, and above the ground.", **POSITION)
+    position_m: tuple[float, float, float] = key(
+        "Position: along the road, across it, and above the ground.", **POSITION
+    )
     mass_kg: float = key("Mass of the explosive itself.", unit="kg", at_least=0, at_most=LARGEST_CHARGE_KG)
     explosive: str = key("What it is made of.", default="TNT", choices=tuple(EXPLOSIVES))
     delay_ms: float = key(
@@ -115,7 +117,7 @@ class Charge(PlannedAction):
         return plan.detonation_s(self.delay_s)
 
     def described(self) -> tuple[str, str]:
-        return f"{self.name} detonates: {self.mass_kg:.3g} kg of {self.explosive}, bare", point_text(self.place_m)
+        return f"{self.name} detonates: {self.mass_kg:.3g} kg of {self.explosive}, bare", point_text(self.position_m)
 
     @classmethod
     def means(cls, actions: Sequence[Self]) -> str:
@@ -124,7 +126,7 @@ class Charge(PlannedAction):
         return f"{counted(len(charges), cls.noun)} with {mass_kg:.3g} kg" if charges else ""
 
     def facts(self, site: Worksite) -> Iterator[Fact]:
-        position = ", ".join(f"{value:g}" for value in self.place_m)
+        position = ", ".join(f"{value:g}" for value in self.position_m)
         worth = "" if self.explosive == "TNT" else f" = {self.tnt_kg:.3g} kg of TNT"
         detonation_s = site.plan.detonation_s(self.delay_s)
         when = f", {detonation_s:.4g} s" if math.isfinite(detonation_s) else ""
@@ -133,9 +135,12 @@ class Charge(PlannedAction):
     def unusual(self, site: Worksite) -> Iterator[str]:
         if self.mass_kg == 0.0:
             return
-        if inside := site.member_within(self.place_m, _POINT_M):
+        if inside := site.member_within(self.position_m, _POINT_M):
             yield f"{self.name} lies in {inside}: it counts as a bare charge in air; [[blast_zones]] have drill holes"
-        away_m, curves_m = site.distance_to_bridge_m(self.place_m), _FARTHEST_SCALED_M * float(cube_root(self.tnt_kg))
+        away_m, curves_m = (
+            site.distance_to_bridge_m(self.position_m),
+            _FARTHEST_SCALED_M * float(cube_root(self.tnt_kg)),
+        )
         if away_m > curves_m:
             beyond = f"beyond {curves_m:.0f} m its blast hardly loads anything"
             yield f"{self.name} is {away_m:.0f} m from the bridge: {beyond}"
@@ -144,13 +149,13 @@ class Charge(PlannedAction):
 
     def _depth_m(self, site: Worksite) -> float:
         """Return how far it lies below the ground, which may be none."""
-        return site.ground_height(self.place_m[:2]) - self.place_m[2]
+        return site.ground_height(self.position_m[:2]) - self.position_m[2]
 
     def check_model(self, site: Worksite) -> None:
         """Check that it does not lie deep in the ground, whose soil would hold its wave."""
         if (deep_m := self._depth_m(site)) > _DEEPEST_M:
             wanted = f"a charge in air, this one lies {deep_m:.4g} m below the ground"
-            raise ScenarioError(f"charges.place_m.3 of {self.name} is {self.place_m[2]:g}: expected {wanted}")
+            raise ScenarioError(f"charges.position_m.3 of {self.name} is {self.position_m[2]:g}: expected {wanted}")
 
     def check_plan(self, plan: Plan) -> None:
         """Check that it detonates within the run, if at all."""

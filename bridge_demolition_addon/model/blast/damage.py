@@ -61,6 +61,6 @@ def ring_radii(
             stand_off_m = stand_off_for_overpressure(
                 threshold.overpressure_pa / pressure_factor, charge.tnt_for_pressure_kg, charge.burst, model
             )
-            height = charge.place_m[2] - level_m
+            height = charge.position_m[2] - level_m
             radii[row, column] = np.sqrt(max(stand_off_m * stand_off_m - height * height, 0.0))
     return radii

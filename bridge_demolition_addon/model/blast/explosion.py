@@ -47,7 +47,7 @@ class Explosion:
 
     def __init__(self, charges: Sequence[Charge], hulls: ConvexHulls, settings: BlastSettings):
         self._hulls, self._settings = hulls, settings
-        self._sources_m = np.array([charge.place_m for charge in charges], float).reshape(-1, 3)
+        self._sources_m = np.array([charge.position_m for charge in charges], float).reshape(-1, 3)
         self._tnt_kg = np.array([charge.tnt_kg for charge in charges], float)
         self._detonations_s = settings.start_s + np.array([charge.delay_s for charge in charges], float)
         self._bursts = [charge.burst for charge in charges]

@@ -49,7 +49,7 @@ class PlaceLoads:
 
 
 def loads_at(
-    place_m: Sequence[float],
+    position_m: Sequence[float],
     charges: Sequence[Charge],
     model: BlastModel | str = BlastModel.KINGERY_BULMASH,
     pressure_factor: float = 1.0,
@@ -60,7 +60,7 @@ def loads_at(
     between charge and position, and no wall sends anything back.
     """
     charges = [charge for charge in charges if charge.mass_kg > 0.0]
-    stand_offs = distance(np.array(place_m), np.array([[charge.place_m for charge in charges]]))
+    stand_offs = distance(np.array(position_m), np.array([[charge.position_m for charge in charges]]))
     delays = np.array([charge.delay_s for charge in charges])
     bursts = [charge.burst for charge in charges]
     by_pressure = np.array([charge.tnt_for_pressure_kg for charge in charges])
@@ -77,7 +77,7 @@ def loads_at(
         pressures_pa=pressures,
         peak_pa=float(pressures.max()),
         impulse_pa_s=float(impulses.sum()),
-        peak_velocity_m_s=_peak_velocity(place_m, charges),
+        peak_velocity_m_s=_peak_velocity(position_m, charges),
     )
 
 
@@ -93,7 +93,7 @@ def peak_overpressures(
     """
     peaks = np.zeros(len(points_m))
     for charge in charges:
-        stand_offs = distance(points_m, np.array(charge.place_m))
+        stand_offs = distance(points_m, np.array(charge.position_m))
         wave = blast_wave(stand_offs, charge.tnt_for_pressure_kg, charge.burst, model)
         peaks = np.maximum(peaks, pressure_factor * wave.peak_overpressure_pa)
     return peaks
@@ -108,11 +108,11 @@ def _times(pulses: Pulses) -> np.ndarray:
     return np.unique(np.concatenate([[0.0], before, within, [1.05 * ends.max()]]))
 
 
-def _peak_velocity(place_m: Sequence[float], charges: Sequence[Charge]) -> float:
+def _peak_velocity(position_m: Sequence[float], charges: Sequence[Charge]) -> float:
     """Return the largest of all groups, by the distance of the nearest charge of each, which is on the safe side."""
     velocities = []
     for group in charges_per_delay(charges):
-        nearest = distance(np.array(place_m), np.array([charge.place_m for charge in group])).min()
+        nearest = distance(np.array(position_m), np.array([charge.position_m for charge in group])).min()
         mass = math.fsum(charge.mass_kg for charge in group)
         velocities.append(float(vibration.peak_particle_velocity(max(nearest, _NEAREST_M), mass)))
     return max(velocities)

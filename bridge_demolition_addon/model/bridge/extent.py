@@ -42,7 +42,7 @@ def room_around(scenario: Scenario, members: Sequence[Member]) -> float:
     return ground_half_size(members, scenario.ball.largest_height_m(0.0) if scenario.ball else 0.0)
 
 
-def surface_height(scenario: Scenario, members: Sequence[Member], place_m: tuple[float, float]) -> float:
+def surface_height(scenario: Scenario, members: Sequence[Member], position_m: tuple[float, float]) -> float:
     """Return the height of the top of all members at a position along and across the road, m.
 
     Of a bridge alone it is that of the deck, which joints do not interrupt.
@@ -50,10 +50,10 @@ def surface_height(scenario: Scenario, members: Sequence[Member], place_m: tuple
     if scenario.bridge and not scenario.geometry and not scenario.steelwork:
         return deck_top(scenario.bridge)
     corners = np.concatenate([member.solid.corners for member in members])
-    heights = _heights_above(corners, np.asarray(place_m, dtype=float))
+    heights = _heights_above(corners, np.asarray(position_m, dtype=float))
     if not len(heights):
         raise GeometryError(
-            f"No member lies under {list(place_m)}; aim the ball at a position that has something under it."
+            f"No member lies under {list(position_m)}; aim the ball at a position that has something under it."
         )
     return float(heights.max())
 

@@ -72,7 +72,7 @@ def placed_mesh(table: Geometry) -> TriangleMesh:
     for plane, angle_deg in zip(_PLANES, turns_deg, strict=True):
         if angle_deg:
             vertices[:, plane] = transformed(turn_by_degrees(angle_deg), vertices[:, plane])
-    return TriangleMesh(vertices + np.array(table.place_m), mesh.triangles)
+    return TriangleMesh(vertices + np.array(table.position_m), mesh.triangles)
 
 
 def exported(mesh: TriangleMesh, suffix: str) -> bytes:
@@ -96,7 +96,7 @@ def _check_extent(mesh: TriangleMesh, name: str) -> None:
     if farthest > FARTHEST_M:
         raise GeometryError(
             f"{name}: reaches {farthest:.4g} m from the origin; bring it within {FARTHEST_M:g} m by "
-            "geometry.place_m, or by geometry.scale if the file is not in metres."
+            "geometry.position_m, or by geometry.scale if the file is not in metres."
         )
     if 0.0 < thinnest < SHORTEST_LENGTH_M:
         raise GeometryError(
@@ -109,7 +109,7 @@ def _check_above_ground(solid: TriangleMesh, name: str) -> None:
     lowest = float(solid.bounds[0, 2])
     if lowest < -_BELOW_GROUND_M:
         raise GeometryError(
-            f"{name}: reaches {-lowest:.4g} m below the ground, which is at height 0; raise it by geometry.place_m."
+            f"{name}: reaches {-lowest:.4g} m below the ground, which is at height 0; raise it by geometry.position_m."
         )
 
 

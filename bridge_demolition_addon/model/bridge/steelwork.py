@@ -28,7 +28,7 @@ def steelwork_members(steelwork: Steelwork | None) -> tuple[Member, ...]:
     """Return all decks on girders, then all bars, and then all nodes."""
     if steelwork is None:
         return ()
-    places = {node.name: np.array(node.place_m) for node in steelwork.all_nodes}
+    places = {node.name: np.array(node.position_m) for node in steelwork.all_nodes}
     axes = {table.name: _axes(table, places) for table in steelwork.all_members}
     ends = {node.name: _ends_at(node, steelwork.all_members, axes) for node in steelwork.all_nodes}
     radii = {node.name: _radius_m(node, ends[node.name]) for node in steelwork.all_nodes}
@@ -142,7 +142,7 @@ def _deck(span: GirderSpan, bars: dict[str, SteelPart]) -> Member:
     """Return the deck on girders, in parts that end where pieces of the girders do."""
     of_girder = [given(bars[keys["name"]].bar) for keys in span.bars_of(span.girder_names[0])]
     cuts = sorted(bar.begin_m[0] + along for bar in of_girder for along in bar.cuts_m.tolist())
-    begin = span.place_m[0]
+    begin = span.position_m[0]
     limits = [begin, *cuts, begin + span.length_m]
     parts = tuple(_deck_part(span, *ends) for ends in pairwise(limits))
     solid = _deck_part(span, limits[0], limits[-1])
@@ -150,7 +150,7 @@ def _deck(span: GirderSpan, bars: dict[str, SteelPart]) -> Member:
 
 
 def _deck_part(span: GirderSpan, begin_m: float, end_m: float) -> TriangleMesh:
-    _, middle, bottom = span.place_m
+    _, middle, bottom = span.position_m
     thickness = given(span.deck_thickness_m)
     size = (end_m - begin_m, given(span.deck_width_m), thickness)
     return box(size, (0.5 * (begin_m + end_m), middle, bottom + 0.5 * thickness))
@@ -162,7 +162,7 @@ def _node(steelwork: Steelwork, node: SteelNode, ends: Sequence[_End], radius_m:
     if goes_on:
         plates += [(-unit(end.direction), end.at_node) for end in ends if end.table.kind == GIRDER_KIND]
     points = node_points(plates, radius_m)
-    place = np.array(node.place_m)
+    place = np.array(node.position_m)
     solid = from_manifold(hull(place + points))
     steel_m3 = radius_m * math.fsum(end.table.steel_section.area_m2 for end in ends)
     mass_kg = steelwork.density_kg_m3 * steel_m3 + node.mass_kg

@@ -50,7 +50,7 @@ class PileSection:
 
     Attributes
     ----------
-    place_m : float
+    position_m : float
         Where the plane cuts the axis that it is upright to.
     frame, time_s : int, float
         Frame of Blender, and simulated time.
@@ -61,7 +61,7 @@ class PileSection:
     """
 
     direction: Direction
-    place_m: float
+    position_m: float
     frame: int
     time_s: float
     debris: CrossSection
@@ -100,12 +100,12 @@ class PileSection:
     def in_space(self, points_m: np.ndarray) -> np.ndarray:
         """Return points (..., 2) of the plane, width and height, where they are in the world, (..., 3) m."""
         points = np.asarray(points_m, float)
-        placed = np.full((*points.shape[:-1], 3), self.place_m)
+        placed = np.full((*points.shape[:-1], 3), self.position_m)
         placed[..., self.direction.width_axis], placed[..., 2] = points[..., 0], points[..., 1]
         return placed
 
 
-def pile_section(results: Results, direction: Direction, place_m: float, row: int = -1) -> PileSection:
+def pile_section(results: Results, direction: Direction, position_m: float, row: int = -1) -> PileSection:
     """Cut the convex hulls of the shards of a run by an upright plane.
 
     Parameters
@@ -114,7 +114,7 @@ def pile_section(results: Results, direction: Direction, place_m: float, row: in
         What was recorded, with one frame at least.
     direction
         Which way the section runs.
-    place_m
+    position_m
         Position x of a section across the bridge, position y of one along it.
     row
         Recorded frame, counted from 0; by default the last.
@@ -132,25 +132,25 @@ def pile_section(results: Results, direction: Direction, place_m: float, row: in
     there = first[:, 2] - now[:, 2] <= OUT_OF_REACH_M / 2.0
     moved = travel(first, now) > MOVED_M
     debris, standing = (
-        united(_cuts(corners_at(results, row, shards[chosen]), direction, place_m))
+        united(_cuts(corners_at(results, row, shards[chosen]), direction, position_m))
         for chosen in (there & moved, there & ~moved)
     )
     return PileSection(
         direction=direction,
-        place_m=place_m,
+        position_m=position_m,
         frame=int(results.frames.number[row]),
         time_s=float(results.frames.time_s[row]),
         debris=debris,
         standing=standing,
-        ground_m=_ground_below(results.ground(), direction, place_m, _widths((debris, standing))),
+        ground_m=_ground_below(results.ground(), direction, position_m, _widths((debris, standing))),
     )
 
 
-def _cuts(bodies: Sequence[np.ndarray], direction: Direction, place_m: float) -> list[CrossSection]:
+def _cuts(bodies: Sequence[np.ndarray], direction: Direction, position_m: float) -> list[CrossSection]:
     """Return what a plane cuts of the convex hulls of bodies, each (v, 3), in the plane."""
     axes, areas = [direction.width_axis, 2], []
     for corners in bodies:
-        offsets = corners[:, direction.normal_axis] - place_m
+        offsets = corners[:, direction.normal_axis] - position_m
         above, below = offsets > 0.0, offsets <= 0.0
         if not (above.any() and below.any()):
             continue
@@ -172,14 +172,14 @@ def _widths(areas: Sequence[CrossSection]) -> tuple[float, float]:
 
 
 def _ground_below(
-    ground: RecordedGround, direction: Direction, place_m: float, ends_m: tuple[float, float]
+    ground: RecordedGround, direction: Direction, position_m: float, ends_m: tuple[float, float]
 ) -> np.ndarray:
     """Return the ground (p, 2) between two widths, in the plane."""
     steps = 1 if ground.is_flat else int(np.ceil((ends_m[1] - ends_m[0]) / _GROUND_STEP_M))
     widths = np.linspace(*ends_m, steps + 1)
     if ground.is_flat:
         return np.column_stack((widths, np.zeros(len(widths))))
-    places = np.full((len(widths), 2), place_m)
+    places = np.full((len(widths), 2), position_m)
     places[:, direction.width_axis] = widths
     return np.column_stack((widths, ground.heights_at(places)))
 

@@ -102,10 +102,10 @@ def landings(results: Results) -> Landings:
     return Landings(*(values[order] for values in columns_of_bodies))
 
 
-def shaking_at(place_m: ArrayLike, landed: Landings) -> Shaking | None:
+def shaking_at(position_m: ArrayLike, landed: Landings) -> Shaking | None:
     """Return the largest shaking of the ground at a position (3,), m; None where nothing landed."""
     return max(
-        (_shaking(place_m, landed, together) for together in landed.together()),
+        (_shaking(position_m, landed, together) for together in landed.together()),
         key=lambda shaking: shaking.velocity_m_s,
         default=None,
     )
@@ -117,10 +117,10 @@ def touchdown_velocity(distance_m: ArrayLike, energy_j: ArrayLike) -> np.ndarray
     return VELOCITY_M_S * power(scaled, -EXPONENT)
 
 
-def _shaking(place_m: ArrayLike, landed: Landings, together: slice) -> Shaking:
+def _shaking(position_m: ArrayLike, landed: Landings, together: slice) -> Shaking:
     energies = landed.energies_j[together]
     middle = (energies[:, None] * landed.places_m[together]).sum(axis=0) / energies.sum()
-    distance_m = max(float(distance(np.asarray(place_m, float)[:2], middle[:2])), _NEAREST_M)
+    distance_m = max(float(distance(np.asarray(position_m, float)[:2], middle[:2])), _NEAREST_M)
     energy_j = float(energies.sum())
     velocity = float(touchdown_velocity(distance_m, energy_j))
     mass = float(landed.masses_kg[together].sum())

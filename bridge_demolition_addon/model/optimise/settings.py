@@ -63,7 +63,7 @@ class ChosenPlace(Table):
 
     table: ClassVar[str] = "places"
 
-    key: str = schema.key('Which position: `charges."mid pier".place_m`, `ball.target_m`.')
+    key: str = schema.key('Which position: `charges."mid pier".position_m`, `ball.target_m`.')
     lowest_corner_m: tuple[float, ...] = schema.key("Lowest coordinates that are tried.", unit="m")
     highest_corner_m: tuple[float, ...] = schema.key(
         "Highest coordinates that are tried; one that is as its lowest does not change.", unit="m"

@@ -175,7 +175,7 @@ class Equipment(Table):
 
     name: str = key("What it is called.")
     mass_kg: float = key("Mass: a crawler excavator has 20 000 to 40 000 kg.", unit="kg", above=0)
-    place_m: tuple[float, float] = key("Middle of what it stands on: x, y.", unit="m")
+    position_m: tuple[float, float] = key("Middle of what it stands on: x, y.", unit="m")
     footprint_m: tuple[float, float] = key(
         "Length along the road and width across it of what it stands on: 4 m × 3 m of a crawler.", unit="m", above=0
     )

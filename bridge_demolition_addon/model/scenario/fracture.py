@@ -53,7 +53,9 @@ class FracturePoint(Table):
 
     table: ClassVar[str] = "fracture.points"
 
-    place_m: tuple[float, float, float] = key("Along the road, across it, above the ground; inside a member.", unit="m")
+    position_m: tuple[float, float, float] = key(
+        "Along the road, across it, above the ground; inside a member.", unit="m"
+    )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -62,7 +64,7 @@ class Finer(Table):
 
     table: ClassVar[str] = "fracture.finer"
 
-    place_m: tuple[float, float, float] = key("Along the road, across it, above the ground.", unit="m")
+    position_m: tuple[float, float, float] = key("Along the road, across it, above the ground.", unit="m")
     radius_m: float = key("How far its effect reaches.", unit="m", above=0)
     factor: float = key(
         "How many times as many shards a volume at the position itself gets; falls evenly to 1 at the radius.",

@@ -41,13 +41,13 @@ class Geometry(Table):
     rotation_deg: float = key(
         "Turn about the vertical through the file's origin, counter-clockwise.", default=0.0, unit="°"
     )
-    place_m: tuple[float, float, float] = key(
+    position_m: tuple[float, float, float] = key(
         "Where the file's origin goes: along the road, across it, above the ground.", default=(0.0, 0.0, 0.0), unit="m"
     )
     velocity_m_s: tuple[float, float, float] = key(
         "Velocity with which the member begins, along x, y and z.", default=(0.0, 0.0, 0.0), unit="m/s"
     )
-    spin_rad_s: tuple[float, float, float] = key(
+    angular_velocity_rad_s: tuple[float, float, float] = key(
         "Angular velocity with which it begins, about axes along x, y and z through its centre of mass.",
         default=(0.0, 0.0, 0.0),
         unit="rad/s",
@@ -63,7 +63,7 @@ class Geometry(Table):
     @property
     def is_moving(self) -> bool:
         """Return whether it begins with a velocity or an angular velocity."""
-        return any(self.velocity_m_s) or any(self.spin_rad_s)
+        return any(self.velocity_m_s) or any(self.angular_velocity_rad_s)
 
     def _check_together(self) -> None:
         faults = Faults()

@@ -90,7 +90,7 @@ class GirderSpan(Table):
     table: ClassVar[str] = "steelwork.girders"
 
     name: str = key("Name with which all names in it begin.", default="span")
-    place_m: tuple[float, float, float] = key(
+    position_m: tuple[float, float, float] = key(
         "Position of the first end: in the middle between the girders, at the top of their flanges.", unit="m"
     )
     span_lengths_m: tuple[float, ...] = key("Length of each span, between the axes of supports.", **SIZE)
@@ -227,7 +227,7 @@ class GirderSpan(Table):
 
     def nodes(self) -> Iterator[dict[str, Any]]:
         """Yield the keys of its nodes."""
-        begin, middle, top = self.place_m
+        begin, middle, top = self.position_m
         height = top - top_of(self.sections[0])
         supports = self.supports or (GROUND_NAME,) * (len(self.span_lengths_m) + 1)
         for girder, across in zip(self.girder_names, self._across_m, strict=True):
@@ -236,7 +236,7 @@ class GirderSpan(Table):
                 pinned = station.support == self.pinned_at - 1
                 yield {
                     "name": f"{girder} {number}",
-                    "place_m": (begin + station.along_m, middle + across, height),
+                    "position_m": (begin + station.along_m, middle + across, height),
                     "support": (PINNED if pinned else ROCKER) if is_held else None,
                     "held_by": GROUND_NAME if station.support is None else supports[station.support],
                 }

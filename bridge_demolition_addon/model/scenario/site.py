@@ -93,7 +93,7 @@ class Neighbour(Table):
     table: ClassVar[str] = "neighbours"
 
     name: str = key("What it is called in the report.")
-    place_m: tuple[float, float, float] = key("Where it is: x, y, z.", unit="m")
+    position_m: tuple[float, float, float] = key("Where it is: x, y, z.", unit="m")
     limit_mm_s: float | None = key(
         "Limit of the ground's peak particle velocity there, for the charge plan.", default=None, unit="mm/s", above=0
     )

@@ -90,7 +90,7 @@ start_s = 0.5
 apply = "direct"
 
 [[charges]]
-place_m = [{_number(along)}, 0.0, {_number(answers.height_m / 2.0)}]      # along the road, across it, above the ground
+position_m = [{_number(along)}, 0.0, {_number(answers.height_m / 2.0)}]  # along the road, across it, above the ground
 mass_kg = 300                    # of TNT
 """
 

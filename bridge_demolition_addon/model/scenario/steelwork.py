@@ -42,7 +42,7 @@ class SteelNode(Table):
     table: ClassVar[str] = "steelwork.nodes"
 
     name: str = key("Name of the node.")
-    place_m: tuple[float, float, float] = key("Along the road, across it, above the ground.", unit="m")
+    position_m: tuple[float, float, float] = key("Along the road, across it, above the ground.", unit="m")
     support: str | None = key(
         "Support of the node: `fixed` holds displacements and rotations, `pinned` turns freely about an axis across "
         "the road, `rocker` also moves along it. All hold uplift. None by default.",
@@ -324,7 +324,7 @@ class Steelwork(Table):
             raise ScenarioError(f"steelwork.nodes {shown(unused[0])}: expected a bar that ends in it")
 
     def _check_lengths(self) -> None:
-        places = {node.name: np.array(node.place_m) for node in self.all_nodes}
+        places = {node.name: np.array(node.position_m) for node in self.all_nodes}
         for member in self.all_members:
             if not set(member.nodes) <= places.keys():
                 continue

@@ -75,7 +75,7 @@ class TimeSettings(Table):
         unit="m/s",
         above=0,
     )
-    rest_spin_rad_s: float = key(
+    rest_angular_velocity_rad_s: float = key(
         "Angular velocity that counts as much as `rest_speed_m_s`.", default=0.1, unit="rad/s", above=0
     )
     rest_hold_s: float = key("How long everything has to rest.", default=1.0, unit="s", above=0)

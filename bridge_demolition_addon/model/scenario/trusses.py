@@ -39,7 +39,7 @@ class TrussSpan(Table):
         default="bottom",
         choices=("bottom", "top"),
     )
-    place_m: tuple[float, float, float] = key(
+    position_m: tuple[float, float, float] = key(
         "Position of the first end, at the axis of the bottom chords and in the middle between them.",
         unit="m",
     )
@@ -71,7 +71,7 @@ class TrussSpan(Table):
                 supported = self.is_supported and level == "L" and number in (0, self.panels)
                 yield {
                     "name": self._node(level, number, side),
-                    "place_m": self._place(level, number, y),
+                    "position_m": self._place(level, number, y),
                     "mass_kg": self._deck_kg(level, number),
                     "support": None if not supported else ROCKER if number else PINNED,
                     "held_by": last if number else first,
@@ -125,7 +125,7 @@ class TrussSpan(Table):
         return f"{self.name} {level}{number} {side}"
 
     def _place(self, level: str, number: int, y: float) -> tuple[float, float, float]:
-        begin, middle, height = self.place_m
+        begin, middle, height = self.position_m
         return (
             begin + self.length_m * number / self.panels,
             middle + y,

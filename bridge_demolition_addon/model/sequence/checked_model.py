@@ -46,11 +46,11 @@ class ModelWorksite:
     def mass_kg(self) -> float:
         return float(self.model.masses_kg.sum())
 
-    def surface_height(self, place_m: Place) -> float:
-        return surface_height(self.plan, self.model.members, place_m)
+    def surface_height(self, position_m: Place) -> float:
+        return surface_height(self.plan, self.model.members, position_m)
 
-    def ground_height(self, place_m: Place) -> float:
-        return float(np.nan_to_num(self.model.ground.heights_at(np.array([place_m]))[0], nan=-np.inf))
+    def ground_height(self, position_m: Place) -> float:
+        return float(np.nan_to_num(self.model.ground.heights_at(np.array([position_m]))[0], nan=-np.inf))
 
     def member_within(self, centre_m: Point, radius_m: float) -> str | None:
         sphere = Manifold.sphere(radius_m, _SPHERE_FACETS).translate(centre_m)

@@ -35,7 +35,9 @@ def left_alone(scenario: Scenario, seconds: float = AWAKE_S) -> Scenario:
     return replace(
         scenario,
         **no_actions(scenario),
-        geometry=tuple(replace(table, velocity_m_s=at_rest, spin_rad_s=at_rest) for table in scenario.geometry),
+        geometry=tuple(
+            replace(table, velocity_m_s=at_rest, angular_velocity_rad_s=at_rest) for table in scenario.geometry
+        ),
         shards=replace(scenario.shards, start_deactivated=False),
         time=replace(scenario.time, duration_s=scenario.warm_up_s + seconds, stop_at_rest=False),
     )

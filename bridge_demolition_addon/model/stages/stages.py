@@ -184,7 +184,7 @@ def equipment_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
     """Yield what `bda check` says of machines on the bridge: mass, position, and whether the bridge is under them."""
     boxes, none = np.array([shard.bounds for shard in model.shards]), np.zeros(len(model.shards), bool)
     for machine in scenario.equipment:
-        where = ", ".join(f"{coordinate:g}" for coordinate in machine.place_m)
+        where = ", ".join(f"{coordinate:g}" for coordinate in machine.position_m)
         yield machine.name, f"{machine.mass_kg / 1000.0:g} t at ({where}) m"
         beside = sum(_highest_under(point, boxes, none) is None for point in _grid(machine))
         if beside:
@@ -238,7 +238,7 @@ def _grid(equipment: Equipment) -> np.ndarray:
     steps = (np.arange(_GRID) + 0.5) / _GRID - 0.5
     length_m, width_m = equipment.footprint_m
     x, y = np.meshgrid(steps * length_m, steps * width_m)
-    return np.column_stack((x.ravel(), y.ravel())) + np.array(equipment.place_m)
+    return np.column_stack((x.ravel(), y.ravel())) + np.array(equipment.position_m)
 
 
 def _highest_under(point: np.ndarray, boxes: np.ndarray, removed: np.ndarray) -> int | None:

@@ -208,7 +208,7 @@ def _at_neighbour(neighbour: Neighbour, rows: Sequence[FiredRow]) -> AtNeighbour
     """
     if not rows:
         return AtNeighbour(neighbour, np.inf, 0.0, 0.0)
-    place = np.array(neighbour.place_m)
+    place = np.array(neighbour.position_m)
     distances = np.array([_distance(place, row.box_m) for row in rows])
     together = fires_together(np.array([row.time_s for row in rows]), np.array([row.spread_s for row in rows]))
     nearest = np.maximum([distances[group].min() for group in together], _NEAREST_M)

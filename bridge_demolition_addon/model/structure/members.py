@@ -179,7 +179,7 @@ def shards_per_member(volumes: np.ndarray, shard_count: int) -> np.ndarray:
 def _density(settings: FractureSettings) -> PointDensity | None:
     densities = []
     if settings.finer:
-        positions = np.array([position.place_m for position in settings.finer])
+        positions = np.array([position.position_m for position in settings.finer])
         radii, factors = (
             [position.radius_m for position in settings.finer],
             [position.factor for position in settings.finer],
@@ -456,7 +456,7 @@ def _amount(solid: TriangleMesh, density: PointDensity | None, seed: int) -> flo
 
 def _points_by_member(settings: FractureSettings, members: Sequence[Member]) -> list[np.ndarray]:
     """Return the points of the user's own in each member, (p, 3) in m."""
-    positions = [point.place_m for point in settings.points]
+    positions = [point.position_m for point in settings.points]
     if settings.points_file is not None:
         positions += points_from_file(Path(settings.points_file)).tolist()
     points = np.array(positions, dtype=float).reshape(-1, 3)

@@ -277,7 +277,7 @@ def start_motions(tables: Sequence[Geometry], model: Model) -> tuple[np.ndarray,
     for table in (first for first in first_of_each.values() if first.is_moving):
         shards = np.flatnonzero(names == table.name)
         masses, centres = model.masses_kg[shards, None], model.centres_m[shards]
-        angular_velocities[shards] = table.spin_rad_s
+        angular_velocities[shards] = table.angular_velocity_rad_s
         arms = centres - (masses * centres).sum(axis=0) / masses.sum()
         velocities[shards] = np.array(table.velocity_m_s) + cross(angular_velocities[shards], arms)
     velocities[model.fixed], angular_velocities[model.fixed] = 0.0, 0.0

@@ -215,12 +215,12 @@ class SteelEnds(ConnectionSource):
         pairs = np.zeros((len(held), 2), int)
         for row, node in enumerate(held):
             shard = int(np.searchsorted(cut.member_of_shard, nodes[row]))
-            pairs[row] = shard, _holding_shard(node.held_by, np.array(node.place_m), cut)
+            pairs[row] = shard, _holding_shard(node.held_by, np.array(node.position_m), cut)
         areas = [
             max(_bar(one).section.area_m2 for one in cut.members if one.steel and node.name in one.steel.nodes)
             for node in held
         ]
-        places = np.array([node.place_m for node in held], float).reshape(-1, 3)
+        places = np.array([node.position_m for node in held], float).reshape(-1, 3)
         return Connections(pairs, places, np.array(areas, float), np.tile((0.0, 0.0, -1.0), (len(held), 1))), nodes
 
     def _pins(self) -> ModelBearings:
@@ -233,7 +233,9 @@ class SteelEnds(ConnectionSource):
         pins = [held[row] for row in rows]
         arms = [max(_within_m(self.cut.members, pin.name)) for pin in pins]
         places = [
-            np.add(pin.place_m, (0.0, side * arm, 0.0)) for pin, arm in zip(pins, arms, strict=True) for side in (-1, 1)
+            np.add(pin.position_m, (0.0, side * arm, 0.0))
+            for pin, arm in zip(pins, arms, strict=True)
+            for side in (-1, 1)
         ]
         count, half = len(pins), 0.5e6 * UNYIELDING_MN_M
         sideways = [(0.0 if pin.support == ROCKER else half, half) for pin in pins for _ in range(2)]
@@ -324,7 +326,7 @@ def _support(node: str, members: Sequence[Member]) -> np.ndarray:
     return np.diag([shifts] * 3 + [turns] * 3)
 
 
-def _holding_shard(name: str, place_m: np.ndarray, cut: CutMembers) -> int:
+def _holding_shard(name: str, position_m: np.ndarray, cut: CutMembers) -> int:
     """Return the shard of a member, or of all of a kind, that is nearest to a position; or the ground."""
     if name == GROUND_NAME:
         return GROUND
@@ -333,7 +335,7 @@ def _holding_shard(name: str, place_m: np.ndarray, cut: CutMembers) -> int:
     beyond = []
     for row in rows.tolist():
         lower, upper = cut.shards[row].bounds
-        outside = np.maximum(np.maximum(lower - place_m, place_m - upper), 0.0)
+        outside = np.maximum(np.maximum(lower - position_m, position_m - upper), 0.0)
         beyond.append(float(dot(outside, outside)))
     return int(rows[int(np.argmin(beyond))])
 

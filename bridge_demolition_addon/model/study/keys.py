@@ -13,8 +13,8 @@ from typing import Any, get_args, get_origin
 from ...errors import ScenarioError
 from ..scenario import Scenario
 from ..scenario.contacts import BodyInContact
-from ..schema import Table, holds_many, key_name, key_of, shown, subtable_class, value_type
-from ..toml_tables import dotted
+from ..schema import EARLIER_NAMES, Table, holds_many, key_name, key_of, shown, subtable_class, value_type
+from ..toml_tables import dotted, say_renamed
 
 _LEAF = "the key itself"
 
@@ -109,6 +109,9 @@ def _keys(table: Table, name: str, parts: list[str], before: str, steps: tuple) 
     """Follow the parts of a name that lead on from a table."""
     first, *rest = parts
     known = [item.name for item in fields(table)]
+    if first not in known and EARLIER_NAMES.get(first) in known:
+        say_renamed(name, EARLIER_NAMES[first])
+        first = EARLIER_NAMES[first]
     if first not in known:
         if alike := get_close_matches(first, known, n=1):
             raise ScenarioError(f"{name} is unknown: did you mean {dotted(table.table, alike[0])}?")
@@ -144,7 +147,7 @@ def _in_list(tables: tuple[Table, ...], name: str, parts: list[str], before: str
     chosen = [index for index, own_name in enumerate(names) if own_name == first]
     if not chosen and first.isascii() and first.isdigit() and 1 <= int(first[:9]) <= len(tables):
         chosen = [int(first) - 1]
-    if not chosen and first in [item.name for item in fields(tables[0])]:
+    if not chosen and EARLIER_NAMES.get(first, first) in [item.name for item in fields(tables[0])]:
         chosen, rest = list(range(len(tables))), parts
     if not chosen:
         raise ScenarioError(f"{name} is not in the scenario: [[{before}]] has {', '.join(map(shown, names))}")

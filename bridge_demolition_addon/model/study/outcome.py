@@ -173,13 +173,13 @@ def _surroundings(results: Results, scenario: Scenario, bodies: np.ndarray) -> d
     model, landed = BlastModel(scenario.blast.model), landings(results)
     of_holes = _of_drilled_charges(scenario)
     for neighbour in scenario.neighbours:
-        loads = loads_at(neighbour.place_m, charges, model, scenario.blast.pressure_factor) if charges else None
+        loads = loads_at(neighbour.position_m, charges, model, scenario.blast.pressure_factor) if charges else None
         peak_pa, velocity_m_s = (loads.peak_pa, loads.peak_velocity_m_s) if loads else (0.0, 0.0)
         if drilled := of_holes.get(neighbour.name):
             peak_pa, velocity_m_s = max(peak_pa, drilled.pressure_pa), max(velocity_m_s, drilled.velocity_m_s)
         outputs[neighbour_output(neighbour.name, "pressure_kPa")] = peak_pa / 1e3
         outputs[neighbour_output(neighbour.name, "vibration_mm_s")] = velocity_m_s * 1e3
-        shaking = shaking_at(neighbour.place_m, landed)
+        shaking = shaking_at(neighbour.position_m, landed)
         outputs[neighbour_output(neighbour.name, "touchdown_mm_s")] = shaking.velocity_m_s * 1e3 if shaking else 0.0
     return outputs
 

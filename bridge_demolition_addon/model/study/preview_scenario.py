@@ -97,7 +97,7 @@ def in_long_steps(time: TimeSettings) -> TimeSettings:
         farthest_per_substep_m=FARTHEST_M,
         rest_hold_s=min(time.rest_hold_s, REST_HOLD_S),
         rest_speed_m_s=max(time.rest_speed_m_s, REST_SPEED_M_S),
-        rest_spin_rad_s=max(time.rest_spin_rad_s, REST_SPIN_RAD_S),
+        rest_angular_velocity_rad_s=max(time.rest_angular_velocity_rad_s, REST_SPIN_RAD_S),
     )
 
 

@@ -86,9 +86,9 @@ class Terrain:
         points = self.placing.to_scenario(self.source.points)
         return points[((points[:, :2] >= low_m) & (points[:, :2] <= high_m)).all(axis=1)]
 
-    def place_text(self, place_m: np.ndarray) -> str:
+    def place_text(self, position_m: np.ndarray) -> str:
         """Return easting and northing of a position (2,), as text."""
-        easting, northing = self.placing.to_file(place_m)
+        easting, northing = self.placing.to_file(position_m)
         return f"easting {easting:.10g}, northing {northing:.10g}"
 
 

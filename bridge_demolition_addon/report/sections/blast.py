@@ -53,7 +53,9 @@ def blast_section(scenario: Scenario, bridge: CrossSection, ground: RecordedGrou
     blocks.append(_ring_table(charges, model, factor))
     if scenario.neighbours:
         neighbours = scenario.neighbours
-        blocks += _neighbour_blocks([(one.name, loads_at(one.place_m, charges, model, factor)) for one in neighbours])
+        blocks += _neighbour_blocks(
+            [(one.name, loads_at(one.position_m, charges, model, factor)) for one in neighbours]
+        )
     else:
         blocks.append(Paragraph("The scenario has no neighbours: add tables [[neighbours]] to see their loads here."))
     return Section("Blast", tuple(blocks))
@@ -71,9 +73,9 @@ def _charge_table(charges: Sequence[Charge]) -> DataTable:
             significant=3,
             value=lambda charge: charge.tnt_for_pressure_kg,
         ),
-        Column("x (m)", "x_m", ".2f", lambda charge: charge.place_m[0]),
-        Column("y (m)", "y_m", ".2f", lambda charge: charge.place_m[1]),
-        Column("z (m)", "z_m", ".2f", lambda charge: charge.place_m[2]),
+        Column("x (m)", "x_m", ".2f", lambda charge: charge.position_m[0]),
+        Column("y (m)", "y_m", ".2f", lambda charge: charge.position_m[1]),
+        Column("z (m)", "z_m", ".2f", lambda charge: charge.position_m[2]),
         Column("delay (ms)", "delay_ms", ".0f", lambda charge: 1e3 * charge.delay_s),
         Column("burst", "burst", "", lambda charge: charge.burst),
     )

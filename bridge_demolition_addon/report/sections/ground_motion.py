@@ -123,7 +123,7 @@ def touchdown_section(results: Results, neighbours: Sequence[Neighbour]) -> Sect
         return None
     landed = landings(results)
     blocks: list[Block] = [Paragraph(_SHAKING)]
-    shaken = [(neighbour.name, shaking_at(neighbour.place_m, landed)) for neighbour in neighbours]
+    shaken = [(neighbour.name, shaking_at(neighbour.position_m, landed)) for neighbour in neighbours]
     if len(landed):
         blocks.append(_shaking_table([(name, shaking) for name, shaking in shaken if shaking is not None]))
     else:

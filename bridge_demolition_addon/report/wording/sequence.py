@@ -32,4 +32,4 @@ def _means(scenario: Scenario) -> Iterator[str]:
 def _standing(machine: Equipment) -> PlannedStep:
     until_s = math.inf if machine.until_s is None else machine.until_s
     what = f"{machine.name} of {mass_text(machine.mass_kg, 1)} stands on the bridge"
-    return PlannedStep(machine.from_s, until_s, what, point_text(machine.place_m))
+    return PlannedStep(machine.from_s, until_s, what, point_text(machine.position_m))

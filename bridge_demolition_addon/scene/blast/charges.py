@@ -138,7 +138,7 @@ def _create(collection: bpy.types.Collection, charge: Charge) -> bpy.types.Objec
     empty = bpy.data.objects.new(charge.name, None)
     empty.empty_display_type, empty.empty_display_size = "SPHERE", _SYMBOL_SIZE_M
     empty.show_in_front = True  # charges mostly sit where concrete hides them
-    empty.matrix_world = Matrix.Translation(charge.place_m)  # valid at once, unlike a location
+    empty.matrix_world = Matrix.Translation(charge.position_m)  # valid at once, unlike a location
     empty[MASS], empty[EXPLOSIVE] = charge.mass_kg, charge.explosive
     empty[DELAY], empty[BURST] = charge.delay_s, charge.burst
     for name, shown in _SHOWN.items():
@@ -154,7 +154,7 @@ def _charge(empty: bpy.types.Object) -> Charge:
     try:
         return Charge(
             name=empty.name,
-            place_m=tuple(_position_of(empty)),
+            position_m=tuple(_position_of(empty)),
             mass_kg=empty[MASS],
             explosive=explosive_named(empty[EXPLOSIVE]).name,
             delay_ms=_in_ms(empty[DELAY]),

@@ -53,7 +53,7 @@ def remove_dust(scene: bpy.types.Scene) -> int:
 def _animate(puff: bpy.types.Object, cloud: Puff, frames_per_second: float) -> None:
     grown = cloud.frame + max(1, round(_GROWING_S * frames_per_second))
     gone = cloud.frame + max(2, round(_GONE_S * frames_per_second))
-    x, y, z = cloud.place_m
+    x, y, z = cloud.position_m
     for frame, size, risen, density in ((cloud.frame, 0.25, 0.0, 1.0), (grown, 1.0, 0.3, 0.6), (gone, 1.6, 1.0, 0.0)):
         puff.scale = (size * cloud.radius_m,) * 3
         puff.location = (x, y, z + risen * _RISE * cloud.radius_m)

@@ -72,9 +72,9 @@ class BDA_OT_add_source_point(UndoableAction, bpy.types.Operator):
         while f"Charge {number}" in bpy.data.objects:
             number += 1
         place = place_of_new(scene) if self.at_pier else None
-        charge = Charge(name=f"Charge {number}", place_m=tuple(scene.cursor.location), mass_kg=_NEW_CHARGE_KG)
+        charge = Charge(name=f"Charge {number}", position_m=tuple(scene.cursor.location), mass_kg=_NEW_CHARGE_KG)
         if place:  # so near to the ground that it throws the wave back
-            charge = replace(charge, place_m=place, burst=Burst.SURFACE.value)
+            charge = replace(charge, position_m=place, burst=Burst.SURFACE.value)
         create_charges(scene, [charge])
         scene.bda.charge_index = len(charge_collection(scene).objects) - 1
 

@@ -96,7 +96,7 @@ def ring_lines(scene: bpy.types.Scene) -> list[tuple[np.ndarray, float]]:
     rings = []
     for charge, radius in zip(charges, _rings[key].tolist(), strict=True):
         if radius > 0.0:
-            points = np.array((charge.place_m[0], charge.place_m[1], 0.0)) + radius * circle
+            points = np.array((charge.position_m[0], charge.position_m[1], 0.0)) + radius * circle
             rings.append((np.stack((points[:-1], points[1:]), axis=1).reshape(-1, 3), radius))
     return rings
 
@@ -119,7 +119,7 @@ def _draw_on_screen(context: bpy.types.Context) -> None:
         _draw_colour_bar(context, settings, shown[0])
     if scene.bda.show_charges:
         for charge in charges_of(scene):
-            write_at(context, charge.place_m, charge_text(charge), dot=_RING_COLOUR)
+            write_at(context, charge.position_m, charge_text(charge), dot=_RING_COLOUR)
     if scene.bda.show_rings:
         damage = THRESHOLDS[int(scene.bda.ring_damage)].damage
         for lines, radius in ring_lines(scene):

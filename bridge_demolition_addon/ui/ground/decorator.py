@@ -83,7 +83,7 @@ def _zones(scene: bpy.types.Scene, _layer: bpy.types.ViewLayer) -> Iterator[Draw
 
 def _neighbours(scene: bpy.types.Scene, _layer: bpy.types.ViewLayer) -> Iterator[Drawn]:
     for neighbour in shown_site(scene.bda)["neighbours"]:
-        position = neighbour.place_m
+        position = neighbour.position_m
         yield Drawn(cross_lines(position, _NEIGHBOUR_M), _COLOURS[NEIGHBOURS], text=neighbour.name, position_m=position)
 
 
@@ -119,8 +119,8 @@ def _flashes(scene: bpy.types.Scene, _layer: bpy.types.ViewLayer) -> Iterator[Dr
     for charge in charges_of(scene):
         share = flash_share(now_s - settings.start_s - charge.delay_s) if charge.mass_kg > 0.0 else 0.0
         if share > 0.0:
-            lines = flash_lines(charge.place_m, _FLASH_M * share)
-            yield Drawn(lines, (*_FLASH, share), _WIDTHS_PX[FLASHES], charge.name, charge.place_m)
+            lines = flash_lines(charge.position_m, _FLASH_M * share)
+            yield Drawn(lines, (*_FLASH, share), _WIDTHS_PX[FLASHES], charge.name, charge.position_m)
 
 
 def _blast_zones(scene: bpy.types.Scene, _layer: bpy.types.ViewLayer) -> Iterator[Drawn]:

@@ -124,7 +124,7 @@ def _worked_out(run: RunFigures, row: int, name: str, exclusion: Exclusion | Non
     limit = planned_zone(run.plan, exclusion).whole if exclusion else CrossSection()
     farthest = None
     if figures.farthest is not None:
-        place = figures.farthest.place_m
+        place = figures.farthest.position_m
         height = 0.0 if run.ground.is_flat else float(np.nan_to_num(run.ground.heights_at(place[None])[0]))
         farthest = np.array((*place, height))
     return InView(

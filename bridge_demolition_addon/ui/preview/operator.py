@@ -34,13 +34,13 @@ class BDA_OT_drag_handle(Action, bpy.types.Operator):
     kind: EnumProperty(name="What", description="What is moved", items=_KINDS)
     index: IntProperty(name="Number", description="Which of them, from 0", min=0, options={"HIDDEN"})
     is_upright: BoolProperty(name="Upright", description="Whether it goes up and down only", options={"HIDDEN"})
-    place_m: FloatVectorProperty(name="Position", description="Where to", size=3, subtype="XYZ", unit="LENGTH")
+    position_m: FloatVectorProperty(name="Position", description="Where to", size=3, subtype="XYZ", unit="LENGTH")
 
     blocked_by = (recording_runs,)
 
     def act(self, context: bpy.types.Context) -> None:
         self._handle(context)
-        drag(context.scene, HandleKind(self.kind), self.index, tuple(self.place_m))
+        drag(context.scene, HandleKind(self.kind), self.index, tuple(self.position_m))
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         try:
@@ -55,7 +55,7 @@ class BDA_OT_drag_handle(Action, bpy.types.Operator):
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         if event.type in {"ESC", "RIGHTMOUSE"} and event.value == "PRESS":
-            self.place_m = self._start
+            self.position_m = self._start
             for owner, name, value in self._before:
                 setattr(owner, name, value)
             return self._leave(context, {"CANCELLED"})
@@ -83,10 +83,10 @@ class BDA_OT_drag_handle(Action, bpy.types.Operator):
         if under is None:
             return
         self._held = under - self._start if self._held is None else self._held
-        place_m = under - self._held
-        self.place_m = np.round(place_m / _SNAP_M) * _SNAP_M if event.ctrl else place_m
-        drag(context.scene, HandleKind(self.kind), self.index, tuple(self.place_m))
-        position = ", ".join(length_text(coordinate, ".2f") for coordinate in self.place_m)
+        position_m = under - self._held
+        self.position_m = np.round(position_m / _SNAP_M) * _SNAP_M if event.ctrl else position_m
+        drag(context.scene, HandleKind(self.kind), self.index, tuple(self.position_m))
+        position = ", ".join(length_text(coordinate, ".2f") for coordinate in self.position_m)
         if context.area:
             hint = translated("Ctrl: steps of {} | Let go: done | Esc: back").format(length_text(_SNAP_M, "g"))
             context.area.header_text_set(f"{position} | {hint}")

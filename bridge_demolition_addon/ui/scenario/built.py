@@ -33,7 +33,7 @@ _AS_SHOWN = ("title", "charges", "blast", "recording", "pictures", "report", *_S
 _BESIDE_RESULTS = ("title", "recording", "pictures", "report")
 """Parts of a scenario on which no result depends."""
 
-_TIME_AS_SHOWN = ("stop_at_rest", "rest_speed_m_s", "rest_spin_rad_s", "rest_hold_s")
+_TIME_AS_SHOWN = ("stop_at_rest", "rest_speed_m_s", "rest_angular_velocity_rad_s", "rest_hold_s")
 """Keys of its time that a run takes so."""
 
 _LISTED_IN_MESSAGE = 3

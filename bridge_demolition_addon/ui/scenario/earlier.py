@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import re
 from collections.abc import Iterator
 
 import bpy
@@ -11,7 +12,7 @@ from ...errors import ScenarioError
 from ...model.scenario import Ball, ContactSettings, Ground, GroundSurface, Jackhammer, Scenario, ShardSettings
 from ...model.scenario.contacts import BodyInContact
 from ...model.scenario.file import read_scenario, scenario_from_text
-from ...model.schema import Table, holds_many, is_optional, subtable_class
+from ...model.schema import EARLIER_NAMES, Table, holds_many, is_optional, subtable_class
 from ...model.toml_tables import toml_value
 from .prop import DEFAULT_PRESET, EARLIER_DEFAULT, USE, default_value, is_written_out, shown_keys, shown_tables
 
@@ -42,6 +43,38 @@ def read_earlier_defaults(*_arguments: object) -> None:
         is_used = bool(settings.built_scenario) or _is_set(settings.scenario, Scenario)
         if is_used and not settings.defaults_of and not scene.library:
             _set_missing(settings.scenario, Scenario, read_scenario(EARLIER_DEFAULT))
+
+
+@bpy.app.handlers.persistent
+def read_earlier_keys(*_arguments: object) -> None:
+    """Called by Blender when a file is loaded: keys that had another name before have their values under it."""
+    for scene in bpy.data.scenes:
+        settings = scene.bda
+        _move_renamed(settings.scenario, Scenario)
+        built = settings.built_values
+        for earlier, name in EARLIER_NAMES.items():
+            built = re.sub(rf"\b{earlier}\b", name, built)
+        if built != settings.built_values:
+            settings.built_values = built
+
+
+def _move_renamed(group: bpy.types.PropertyGroup, table_class: type[Table]) -> None:
+    """Give the keys of a table, and of the tables in it, values that a file has under their earlier names."""
+    kept = group.bl_system_properties_get() or {}
+    keys = {item.name: item for item in shown_keys(table_class)}
+    for earlier, name in EARLIER_NAMES.items():
+        if name not in keys:
+            continue
+        for prefix in ("", USE):
+            if prefix + earlier in kept and not group.is_property_set(prefix + name):
+                value = kept[prefix + earlier]
+                value = bool(value) if prefix else value if isinstance(value, str | int | float) else tuple(value)
+                setattr(group, prefix + name, value)
+                del kept[prefix + earlier]
+    for item in shown_tables(table_class):
+        inner = getattr(group, item.name)
+        for one in inner if holds_many(item) else (inner,):
+            _move_renamed(one, subtable_class(item))
 
 
 def _is_set(group: bpy.types.PropertyGroup, table_class: type[Table]) -> bool:

@@ -84,9 +84,7 @@ _PER_SECOND = "1/s"
 
 _DECIMALS = 3
 _WORDS = {
-    "place": "position",
     "places": "positions",
-    "spin": "angular velocity",
     "trials": "runs",
     "turning": "rotational",
 }

@@ -157,6 +157,8 @@ def _as_loaded(charge: Charge, loaded: dict[str, Any]) -> Charge:
     return replace(
         charge,
         name=loaded.get("name") or charge.name,
-        place_m=tuple(map(as_given, charge.place_m, loaded.get("place_m", (None,) * 3))),
+        position_m=tuple(
+            map(as_given, charge.position_m, loaded.get("position_m", loaded.get("place_m", (None,) * 3)))
+        ),
         delay_ms=delay_ms if math.isclose(delay_ms, charge.delay_ms, rel_tol=_ROUNDING) else charge.delay_ms,
     )

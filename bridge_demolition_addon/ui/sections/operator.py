@@ -98,7 +98,7 @@ class BDA_OT_write_section(Action, bpy.types.Operator):
         return f"Section: {written[0]} and {written[1].name}"
 
 
-def _put(context: bpy.types.Context, place_m: np.ndarray) -> None:
+def _put(context: bpy.types.Context, position_m: np.ndarray) -> None:
     settings = context.scene.bda
-    settings.section_place_m = float(place_m[Direction[settings.section_direction].normal_axis])
+    settings.section_place_m = float(position_m[Direction[settings.section_direction].normal_axis])
     settings.show_section = True

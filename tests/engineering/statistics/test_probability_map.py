@@ -43,16 +43,16 @@ def test_limits_of_cells_are_those_of_scipy(strips):
 
 @pytest.mark.slow
 def test_the_limit_at_a_place_holds_in_as_many_studies_as_promised():
-    place_m, studies = 12.0, 120
+    position_m, studies = 12.0, 120
     generator = np.random.default_rng(9)
     maps = [
         probability_map([strip(length_m) for length_m in generator.normal(10.0, 2.0, 59)], CONFIDENCE)
         for _ in range(studies)
     ]
-    hits = [chances.hits[0, round(place_m / chances.cells.side_m)] for chances in maps]
+    hits = [chances.hits[0, round(position_m / chances.cells.side_m)] for chances in maps]
     limits = upper_limit(np.arange(59 + 1), 59, CONFIDENCE)[hits]  # as the limits of cells are, see above
     tolerance = 3.3 * np.sqrt(CONFIDENCE * (1.0 - CONFIDENCE) / studies)
-    assert np.mean(limits >= norm.sf(place_m, 10.0, 2.0)) >= CONFIDENCE - tolerance
+    assert np.mean(limits >= norm.sf(position_m, 10.0, 2.0)) >= CONFIDENCE - tolerance
 
 
 def test_a_level_is_left_where_debris_is_rarer(strips, reaches_m):

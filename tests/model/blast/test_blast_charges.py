@@ -11,7 +11,7 @@ from bridge_demolition_addon.model.schema import named
 
 
 def charge(**changes):
-    return Charge(**({"name": "mid pier", "place_m": (1.0, 2.0, 3.0), "mass_kg": 10.0} | changes))
+    return Charge(**({"name": "mid pier", "position_m": (1.0, 2.0, 3.0), "mass_kg": 10.0} | changes))
 
 
 def test_tnt_is_worth_itself():
@@ -47,9 +47,9 @@ def test_unknown_explosives_are_refused(name):
 
 
 def test_values_are_kept_as_what_they_are():
-    kept = charge(place_m=[1, 2, 3], mass_kg=np.float32(2), delay_ms=1, burst="surface")
-    assert kept.place_m == (1.0, 2.0, 3.0)
-    assert [type(value) for value in (*kept.place_m, kept.mass_kg, kept.delay_ms)] == [float] * 5
+    kept = charge(position_m=[1, 2, 3], mass_kg=np.float32(2), delay_ms=1, burst="surface")
+    assert kept.position_m == (1.0, 2.0, 3.0)
+    assert [type(value) for value in (*kept.position_m, kept.mass_kg, kept.delay_ms)] == [float] * 5
     assert kept.burst == Burst.SURFACE
     assert kept.delay_s == 0.001
     assert charge(mass_kg=0.0).tnt_kg == 0.0
@@ -71,9 +71,9 @@ def test_charges_without_a_name_are_called_after_their_number():
         ({"mass_kg": None}, "charges.mass_kg is missing: expected a number"),
         ({"delay_ms": -1.0}, "charges.delay_ms is -1.0: expected a number from 0"),
         ({"delay_ms": float("nan")}, "charges.delay_ms is nan"),
-        ({"place_m": (0.0, 0.0)}, "charges.place_m is a list of length 2: expected a list of 3 numbers"),
-        ({"place_m": (0.0, 0.0, float("inf"))}, "charges.place_m.3 is inf: expected a list of 3 numbers"),
-        ({"place_m": 3.0}, "charges.place_m is 3.0: expected a list of 3 numbers"),
+        ({"position_m": (0.0, 0.0)}, "charges.position_m is a list of length 2: expected a list of 3 numbers"),
+        ({"position_m": (0.0, 0.0, float("inf"))}, "charges.position_m.3 is inf: expected a list of 3 numbers"),
+        ({"position_m": 3.0}, "charges.position_m is 3.0: expected a list of 3 numbers"),
         ({"explosive": "jelly"}, 'charges.explosive is "jelly": expected one of "TNT", "ANFO", "C-4"'),
         ({"explosive": None}, 'charges.explosive is missing: expected one of "TNT"'),
         ({"burst": "water"}, 'charges.burst is "water": expected one of "air", "surface"'),

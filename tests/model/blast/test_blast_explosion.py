@@ -22,7 +22,7 @@ def explosion(*charges, **options):
 
 
 def charge(place, mass=1.0, delay=0.0):
-    return Charge(name=str(place), place_m=place, mass_kg=mass, delay_ms=1e3 * delay)
+    return Charge(name=str(place), position_m=place, mass_kg=mass, delay_ms=1e3 * delay)
 
 
 CENTRES = np.array([[5.0, 0.0, 0.0], [0.0, 10.0, 0.0]])

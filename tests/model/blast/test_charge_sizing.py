@@ -97,10 +97,10 @@ def test_thresholds_are_those_published():
 
 def test_rings_on_plan_of_several_charges():
     charges = [
-        Charge(name="ground", place_m=(0.0, 0.0, 0.0), mass_kg=8.0),
-        Charge(name="deck", place_m=(20.0, 0.0, 30.0), mass_kg=8.0),
-        Charge(name="C-4", place_m=(20.0, 5.0, 0.0), mass_kg=8.0, explosive="C-4", burst=Burst.SURFACE),
-        Charge(name="none", place_m=(40.0, 0.0, 0.0), mass_kg=0.0),
+        Charge(name="ground", position_m=(0.0, 0.0, 0.0), mass_kg=8.0),
+        Charge(name="deck", position_m=(20.0, 0.0, 30.0), mass_kg=8.0),
+        Charge(name="C-4", position_m=(20.0, 5.0, 0.0), mass_kg=8.0, explosive="C-4", burst=Burst.SURFACE),
+        Charge(name="none", position_m=(40.0, 0.0, 0.0), mass_kg=0.0),
     ]
     wanted = (Threshold("glass", 1.03e3, ""), Threshold("houses", 34.5e3, ""))
     radii = ring_radii(charges, 0.0, wanted)

@@ -10,7 +10,9 @@ from bridge_demolition_addon.model.blast.receptors import charges_per_delay, loa
 
 
 def charge(x, mass_kg, delay_s=0.0, explosive="TNT"):
-    return Charge(name=f"at {x} m", place_m=(x, 0.0, 0.0), mass_kg=mass_kg, delay_ms=1e3 * delay_s, explosive=explosive)
+    return Charge(
+        name=f"at {x} m", position_m=(x, 0.0, 0.0), mass_kg=mass_kg, delay_ms=1e3 * delay_s, explosive=explosive
+    )
 
 
 def test_one_charge_gives_its_own_wave():

@@ -78,7 +78,7 @@ def test_a_glb_file_has_y_up_and_transforms_of_its_own(tmp_path):
 
 
 def test_scale_turn_and_place(file_of):
-    mesh = placed_mesh(member_of(file_of(), scale=0.5, rotation_deg=90, place_m=[10, 20, 1]))
+    mesh = placed_mesh(member_of(file_of(), scale=0.5, rotation_deg=90, position_m=[10, 20, 1]))
     # Half as large, x now along y.
     np.testing.assert_allclose(mesh.bounds, [[9.75, 19, 1], [10.25, 21, 3]], atol=SINGLE_M)
     assert mesh.volume == pytest.approx(7 / 8, rel=SINGLE_M)
@@ -94,7 +94,7 @@ def test_right_angles_are_exact(file_of, angle_deg):
 
 def test_all_that_is_wrong_is_said_at_once_by_files(file_of):
     thin = member_of(file_of(name="thin.obj"), scale=1e-4)
-    deep = member_of(file_of(name="deep.obj"), name="foot", place_m=[0, 0, -1])
+    deep = member_of(file_of(name="deep.obj"), name="foot", position_m=[0, 0, -1])
     with pytest.raises(
         GeometryError, match=r"thin\.obj: part: is 0\.0001 m thick.* \S+deep\.obj: foot: reaches 1 m below"
     ):
@@ -107,7 +107,7 @@ def test_mass_gives_the_density(file_of):
 
 
 def test_files_of_the_same_name_become_one_solid(file_of):
-    beside = member_of(file_of(), place_m=[3.5, 0, 0])
+    beside = member_of(file_of(), position_m=[3.5, 0, 0])
     (member,), _ = geometry_members([member_of(file_of()), beside])
     # Both have 0.5 m of the foot in common, where the leg of the second stands on it.
     assert member.volume_m3 == pytest.approx(14 - 0.5, rel=SINGLE_M)
@@ -160,14 +160,17 @@ def test_files_that_are_not_meshes_are_refused(tmp_path, content, name, error, t
 
 def test_what_reaches_into_the_ground_is_refused(file_of):
     with pytest.raises(GeometryError, match=r"part: reaches 0.5 m below the ground"):
-        geometry_members([member_of(file_of(), place_m=[0, 0, -0.5])])
+        geometry_members([member_of(file_of(), position_m=[0, 0, -0.5])])
 
 
 @pytest.mark.parametrize(
     "values, text",
     [
-        ({"place_m": [448_000.0, 4_606_000.0, 280.0]}, r"part: reaches 4.606e\+06 m from the origin; bring it within"),
-        ({"place_m": [9e7, 0.0, 0.0]}, r"part: reaches 9e\+07 m from the origin"),
+        (
+            {"position_m": [448_000.0, 4_606_000.0, 280.0]},
+            r"part: reaches 4.606e\+06 m from the origin; bring it within",
+        ),
+        ({"position_m": [9e7, 0.0, 0.0]}, r"part: reaches 9e\+07 m from the origin"),
         ({"scale": 1e4}, r"part: reaches 4e\+04 m from the origin"),
         ({"scale": 1e-4}, r"part: is 0.0001 m thick; expected at least 0.001 m"),
     ],
@@ -189,7 +192,7 @@ def test_without_bridge_the_model_is_what_the_files_say(file_of):
 
 def test_a_member_beside_the_bridge_is_cut_where_the_bridge_is(file_of):
     # A block of 2 m on the middle of the span, from 5.05 m upwards: the deck, 5.3 to 5.55 m, goes through it.
-    block = member_of(file_of(box([2, 2, 2], [0, 0, 1])), name="ballast", place_m=[6.5, 0, 5.05], density_kg_m3=1800)
+    block = member_of(file_of(box([2, 2, 2], [0, 0, 1])), name="ballast", position_m=[6.5, 0, 5.05], density_kg_m3=1800)
     prepared = prepared_members(replace(I235, geometry=[block]))
     assert prepared.members[-1].volume_m3 == pytest.approx(8 - 2 * 2 * 0.25, rel=SINGLE_M)
     assert prepared.notes == ("ballast: 1 m³ cut off, as members before it take that room",)
@@ -215,7 +218,7 @@ def test_height_under_the_ball(file_of):
     with pytest.raises(GeometryError, match=r"No member lies under \[5.0, 0.0\]"):
         surface_height(scenario, members, (5.0, 0.0))
     # Of a bridge and more, whichever is higher.
-    both = replace(I235, geometry=[member_of(file_of(), name="rubble", place_m=[6.5, 0, 5.55])])
+    both = replace(I235, geometry=[member_of(file_of(), name="rubble", position_m=[6.5, 0, 5.55])])
     members = prepared_members(both).members
     assert surface_height(both, members, (8.0, 0.0)) == pytest.approx(6.55, abs=SINGLE_M)
     assert surface_height(both, members, (1.0, 0.0)) == pytest.approx(5.55, abs=SINGLE_M)
@@ -231,7 +234,7 @@ def test_height_of_a_slope():
 
 
 def test_extent_and_ground(file_of):
-    far = member_of(file_of(), place_m=[100, 0, 0])
+    far = member_of(file_of(), position_m=[100, 0, 0])
     members = prepared_members(scenario_of(far)).members
     np.testing.assert_allclose(extent(members), [[98, -0.5, 0], [102, 0.5, 4]], atol=1e-5)
     # The ground is around the origin and reaches the far end, with ten times the height around it.
@@ -251,7 +254,7 @@ def test_paths_start_from_the_scenario_file(tmp_path, file_of, monkeypatch, caps
 
 
 def test_check_says_what_was_repaired_and_cut(file_of):
-    block = member_of(file_of(box([2, 2, 2], [0, 0, 1])), name="ballast", place_m=[6.5, 0, 5.05])
+    block = member_of(file_of(box([2, 2, 2], [0, 0, 1])), name="ballast", position_m=[6.5, 0, 5.05])
     lines = [" ".join(line.split()) for line in scenario_facts(replace(I235, geometry=[block]))]
     assert "ballast 1 m³ cut off, as members before it take that room" in lines
     assert "overlapping shards no pairs, by more than 1e-06 of the smaller one" in lines

@@ -201,7 +201,7 @@ def test_a_column_bends_as_a_cantilever_under_even_pressure(blender, tmp_path):
     length_m, width_m, kpa = 10.0, 1.0, 20.0
     solid = block((width_m, width_m, length_m), (-0.5, -0.5, 0.0))
     keys = KEYS | {"direction": (1.0, 0.0, 0.0), "times_s": (0.0, 1.0), "pressures_kpa": (0.0, kpa)}
-    points = tuple(FracturePoint(place_m=(0.0, 0.0, 0.5 + slice_m)) for slice_m in range(10))
+    points = tuple(FracturePoint(position_m=(0.0, 0.0, 0.5 + slice_m)) for slice_m in range(10))
     cut = FractureSettings(shards=10, points=points)
     scenario = of_solid(solid, tmp_path, keys, fracture=cut, duration_s=1.5)
     _, results = played(blender, tmp_path, scenario)

@@ -18,7 +18,7 @@ MAIN, OVER = "PG 1200x12x300x25x400x30", "PG 1200x14x400x40x500x50"
 
 def span(**keys):
     sizes = {
-        "place_m": (1.0, 0.0, 8.0),
+        "position_m": (1.0, 0.0, 8.0),
         "span_lengths_m": (20.0, 24.0),
         "girders": 3,
         "spacing_m": 2.5,
@@ -47,7 +47,7 @@ def test_it_has_the_bars_of_one_drawn_by_hand():
 def test_sections_over_the_pier_have_nodes_where_they_begin_and_level_flanges():
     """6 m about the pier at 21 m: nodes at 18 and 24 m, without cross frames there."""
     steelwork = Steelwork(girders=(span(pier_section=OVER, pier_length_m=6.0),))
-    places = {node.name: node.place_m[0] for node in steelwork.all_nodes if node.name.startswith("span G1 ")}
+    places = {node.name: node.position_m[0] for node in steelwork.all_nodes if node.name.startswith("span G1 ")}
     assert list(places.values()) == pytest.approx([1.0, 6.0, 11.0, 16.0, 18.0, 21.0, 24.0, 29.0, 37.0, 45.0])
     over = [member.name for member in steelwork.all_members if member.section == OVER]
     assert over == [f"span G{girder} {ends}" for girder in (1, 2, 3) for ends in ("4-5", "5-6")]
@@ -73,7 +73,7 @@ def test_supports_are_pinned_at_one_line_and_rockers_elsewhere():
 
 def test_its_mass_is_that_of_its_bars_and_of_its_deck():
     steelwork = Steelwork(girders=(span(),))
-    places = {node.name: node.place_m for node in steelwork.all_nodes}
+    places = {node.name: node.position_m for node in steelwork.all_nodes}
     steel = math.fsum(
         member.steel_section.area_m2 * math.dist(*(places[name] for name in member.nodes))
         for member in steelwork.all_members

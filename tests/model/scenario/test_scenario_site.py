@@ -19,7 +19,7 @@ def test_a_site_is_written_and_read_without_loss():
         zones=(Zone(name="A", corners_m=SQUARE), Zone(name="B", kind="road", corners_m=SQUARE, bottom_m=0.1, top_m=2)),
         exclusion=Exclusion(buffer_m=1 / 3),
         site=Site(latitude_deg=41.6, longitude_deg=-93.6, bearing_deg=12.5),
-        neighbours=(Neighbour(name="House", place_m=(1, 2, 3)),),
+        neighbours=(Neighbour(name="House", position_m=(1, 2, 3)),),
     )
     assert scenario_from_text(scenario_text(scenario)) == scenario
     assert scenario.zones[0].corners_m == ((0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0))

@@ -15,7 +15,7 @@ pytestmark = pytest.mark.slow
 
 def span(**keys):
     sections = dict.fromkeys(("top_chord", "bottom_chord", "posts", "diagonals", "cross_beams", "bracing"), "HEB 200")
-    sizes = {"place_m": (0.0, 0.0, 6.0), "length_m": 32.0, "panels": 8, "height_m": 4.0, "spacing_m": 6.0}
+    sizes = {"position_m": (0.0, 0.0, 6.0), "length_m": 32.0, "panels": 8, "height_m": 4.0, "spacing_m": 6.0}
     return TrussSpan(**{**sections, **sizes, **keys})
 
 
@@ -56,7 +56,7 @@ def test_diagonals_of_a_pratt_truss_fall_towards_the_middle():
 
 def test_its_mass_is_that_of_its_bars_and_of_its_deck():
     steelwork = Steelwork(trusses=(span(deck_kg_m=5000.0),))
-    places = {node.name: node.place_m for node in steelwork.all_nodes}
+    places = {node.name: node.position_m for node in steelwork.all_nodes}
     length = math.fsum(math.dist(*(places[name] for name in member.nodes)) for member in steelwork.all_members)
     by_hand = 7850.0 * section_named("HEB 200").area_m2 * length + 5000.0 * 32.0
     assert math.fsum(member.mass_kg for member in steelwork_members(steelwork)) == pytest.approx(by_hand)

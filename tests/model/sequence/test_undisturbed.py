@@ -32,7 +32,7 @@ def test_the_first_event_is_what_is_done_first():
     assert first_event_s(I235) == pytest.approx(ball.release_time_s + fall_s - I235.time.step.frame_s)
     cut = SawCut(time_s=0.4, point_m=(6, 0, 0), normal=(1, 0, 0))
     assert first_event_s(replace(I235, saw_cuts=(cut,))) == 0.4
-    charges = (Charge(place_m=(0, 0, 1), mass_kg=5, delay_ms=30), Charge(place_m=(0, 0, 1), mass_kg=0.0))
+    charges = (Charge(position_m=(0, 0, 1), mass_kg=5, delay_ms=30), Charge(position_m=(0, 0, 1), mass_kg=0.0))
     assert first_event_s(replace(I235, blast=BlastSettings(start_s=0.2), charges=charges)) == pytest.approx(0.23)
     off = BlastSettings(start_s=0.2, explosion=False)
     assert first_event_s(replace(ALONE, blast=off, charges=charges)) == math.inf

@@ -23,7 +23,7 @@ def load(force_n, **values):
 
 
 def charge(z_m=1.0, x_m=6.5, mass_kg=1.0):
-    return Charge(place_m=(x_m, 0.0, z_m), mass_kg=mass_kg)
+    return Charge(position_m=(x_m, 0.0, z_m), mass_kg=mass_kg)
 
 
 def zone(charge_g):
@@ -39,7 +39,7 @@ def zone(charge_g):
 
 
 def machine(mass_kg):
-    return Equipment(name="crane", mass_kg=mass_kg, place_m=(6.5, 0.0), footprint_m=(4.0, 3.0))
+    return Equipment(name="crane", mass_kg=mass_kg, position_m=(6.5, 0.0), footprint_m=(4.0, 3.0))
 
 
 def cut(mass_kg):
@@ -119,7 +119,7 @@ def test_what_is_usual_is_not_said(name):
         ),
         (
             {"charges": (charge(-50.0),)},
-            r"charges\.place_m\.3 of Charge 1 is -50: expected a charge in air, this one",
+            r"charges\.position_m\.3 of Charge 1 is -50: expected a charge in air, this one",
         ),
     ],
 )

@@ -91,7 +91,7 @@ def mirrored():
     steelwork = read_scenario(FILE).steelwork
     nodes = []
     for table in steelwork.all_nodes:
-        x, y, z = table.place_m
+        x, y, z = table.position_m
         held = {"support": table.support} if table.support else {}
         nodes.append(node(table.name, x, z, -y, mass_kg=table.mass_kg, **held))
     members = [bar(table.name, *table.nodes, table.section, kind=table.kind) for table in steelwork.all_members]

@@ -86,7 +86,7 @@ CRANE = """
 [[equipment]]
 name = "crane"
 mass_kg = 2000.0
-place_m = [1.25, 0.75]
+position_m = [1.25, 0.75]
 footprint_m = [0.4, 0.4]
 from_s = 0.5
 """
@@ -122,7 +122,7 @@ def test_an_eccentric_load_on_a_bracket_is_a_moment_at_the_foot_of_its_column(tm
 
 @pytest.mark.parametrize("by_supports", [False, True])
 def test_reactions_of_a_bridge_are_in_balance_with_its_weight_and_a_machine_at_its_edge(by_supports):
-    machine = Equipment(name="crane", mass_kg=20_000.0, place_m=(3.0, 3.0), footprint_m=(2.0, 2.0), from_s=0.0)
+    machine = Equipment(name="crane", mass_kg=20_000.0, position_m=(3.0, 3.0), footprint_m=(2.0, 2.0), from_s=0.0)
     scenario = replace(
         I235,
         ball=None,
@@ -152,7 +152,9 @@ def test_reactions_of_a_bridge_are_in_balance_with_its_weight_and_a_machine_at_i
         assert force[2] > 0.0
         force_n, moment_nm = force_n + force, moment_nm + moment + np.cross(support.point_m, force)
     assert force_n == pytest.approx([0.0, 0.0, down_n], abs=EXACT * down_n)
-    x, y = (weights_n[:, None] * bridge.model.centres_m[moving, :2]).sum(axis=0) + machine_n * np.array(machine.place_m)
+    x, y = (weights_n[:, None] * bridge.model.centres_m[moving, :2]).sum(axis=0) + machine_n * np.array(
+        machine.position_m
+    )
     assert moment_nm == pytest.approx([y, -x, 0.0], abs=EXACT * down_n * 13.0)
 
 

@@ -142,7 +142,7 @@ def test_a_mesh_that_ends_within_a_millimetre_of_the_ground_is_held_by_it(tmp_pa
 
 
 def test_a_bridge_is_left_alone_awake_and_without_actions():
-    alone = left_alone(replace(I235, charges=(Charge(place_m=(6.5, 0.0, 1.0), mass_kg=1.0),)), 2.0)
+    alone = left_alone(replace(I235, charges=(Charge(position_m=(6.5, 0.0, 1.0), mass_kg=1.0),)), 2.0)
     assert alone.actions == () and not alone.shards.start_deactivated
     assert (alone.time.duration_s, alone.time.stop_at_rest) == (2.0, False)
     assert alone.bridge == I235.bridge and alone.zones == I235.zones

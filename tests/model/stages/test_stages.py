@@ -37,7 +37,7 @@ EXCAVATOR = """
 [[equipment]]
 name = "excavator"
 mass_kg = 1000.0
-place_m = [3.0, 0.0]
+position_m = [3.0, 0.0]
 footprint_m = [0.4, 0.6]
 from_s = 0.5
 """

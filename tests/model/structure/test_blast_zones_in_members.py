@@ -138,7 +138,7 @@ def test_shards_end_at_the_planes_of_a_zone_whatever_their_number(tmp_path, shar
 
 def test_points_of_the_users_own_are_refused_in_a_member_with_zones(tmp_path):
     scenario = column_scenario(tmp_path, ZONE)
-    point = FracturePoint(place_m=(0.0, 0.0, 1.0))
+    point = FracturePoint(position_m=(0.0, 0.0, 1.0))
     scenario = replace(scenario, fracture=replace(scenario.fracture, points=(point,)))
     with pytest.raises(GeometryError, match=r"column has blast_zones, along which it is cut, and 1 points of fracture"):
         column_model(scenario)

@@ -12,7 +12,7 @@ from bridge_demolition_addon.model.structure.charge_plan import charge_plan
 pytestmark = pytest.mark.slow
 
 UPPER = replace(ZONE, name="upper", middle_m=3.2, delay_ms=300.0, row_delay_ms=25.0, detonator="shock tube")
-HOUSE = Neighbour(name="house", place_m=(30.35, 0.0, 1.5))
+HOUSE = Neighbour(name="house", position_m=(30.35, 0.0, 1.5))
 
 
 def plan(folder, *zones, **values):

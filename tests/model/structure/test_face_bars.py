@@ -31,23 +31,23 @@ def model_with(*layers, **settings):
     return build_model(replace(I235, fracture=fracture, connections=connections, reinforcement=layers))
 
 
-def pull_across(model, place_m):
+def pull_across(model, position_m):
     """Force of all bars between the shards on both sides of a plane x, where those that fold back count against."""
-    is_before = np.append(model.centres_m[:, 0] < place_m, False)
+    is_before = np.append(model.centres_m[:, 0] < position_m, False)
     first, second = is_before[model.connections.pairs].T
     signs = np.sign(model.connections.normals[:, 0]) * (first.astype(int) - second)
     return float((signs * model.bars.yield_n).sum())
 
 
-@pytest.mark.parametrize("place_m", [2.0, 6.5, 11.0])
-def test_every_section_has_all_of_a_layer(place_m):
+@pytest.mark.parametrize("position_m", [2.0, 6.5, 11.0])
+def test_every_section_has_all_of_a_layer(position_m):
     model = model_with(BOTTOM)
     (section,) = [group.section(35e6) for group in layers_of_members((BOTTOM,), model.members)]
     pull = 12_000e-6 * 500e6
     # By hand: M = A f_y (d - a / 2) of the deck about its top, and as a tie M / d.
     moment = pull * (0.21 - 0.5 * pull / (WIDTH_M * 35e6))
     assert section.moments_nm()[0] == pytest.approx(moment, rel=1e-9)
-    assert pull_across(model, place_m) == pytest.approx(moment / 0.21, rel=1e-6)
+    assert pull_across(model, position_m) == pytest.approx(moment / 0.21, rel=1e-6)
 
 
 def test_bars_pull_at_their_depth():

@@ -56,7 +56,7 @@ def test_masses_of_members_stay():
         members=[MemberFracture(member="deck", shards=60, stretch=[3, 1, 1])],
         noise=0.5,
         recursion_share=0.3,
-        finer=[Finer(place_m=[6.5, 0, 5.4], radius_m=3, factor=10)],
+        finer=[Finer(position_m=[6.5, 0, 5.4], radius_m=3, factor=10)],
     )
     np.testing.assert_allclose(np.bincount(parts.member_of_shard, parts.masses_kg), MASSES, rtol=VOLUME)
 
@@ -72,7 +72,7 @@ title = "A trough"
 duration_s = 1
 [[geometry]]
 name = "trough"
-place_m = [0.0, 0.0, 0.2]
+position_m = [0.0, 0.0, 0.2]
 file = "{(tmp_path / "trough.obj").as_posix()}"
 density_kg_m3 = 2400
 [connections]
@@ -97,14 +97,14 @@ def test_uniform_masses():
 
 
 def test_a_member_near_a_place_gets_more_shards():
-    even, finer = cut(), cut(finer=[Finer(place_m=[0, 2.125, 2.45], radius_m=3, factor=20)])
+    even, finer = cut(), cut(finer=[Finer(position_m=[0, 2.125, 2.45], radius_m=3, factor=20)])
     assert counts(finer)["pier 1 column 2"] > 3 * counts(even)["pier 1 column 2"]
     assert sum(counts(finer).values()) == 200
 
 
 def test_points_of_ones_own(tmp_path):
     (tmp_path / "points.csv").write_text("x,y,z\n0.1,0,5.1\n\n-0.1, -1, 5.2\n", encoding="utf-8")
-    middle = [FracturePoint(place_m=[x, 0.0, 5.4]) for x in (2.0, 5.0, 10.0)]
+    middle = [FracturePoint(position_m=[x, 0.0, 5.4]) for x in (2.0, 5.0, 10.0)]
     parts = cut(points=middle, points_file=str(tmp_path / "points.csv"), shards=100)
     assert counts(parts)["deck"] == 3 and counts(parts)["pier 1 cap"] == 2
     deck = parts.member_of_shard == 0
@@ -116,7 +116,7 @@ def test_points_of_ones_own(tmp_path):
     "settings, error, text",
     [
         (
-            {"points": [FracturePoint(place_m=[6, 0, 2])]},
+            {"points": [FracturePoint(position_m=[6, 0, 2])]},
             GeometryError,
             "1 of 1 points of fracture.points and its file",
         ),
@@ -235,8 +235,8 @@ def test_everything_is_written_and_read_without_loss(tmp_path):
         recursion_share=0.1,
         points_file="points.csv",
         members=[MemberFracture(member="deck", share=0.5), MemberFracture(member="pier", stretch=[1, 1, 4])],
-        points=[FracturePoint(place_m=[1, 2, 3])],
-        finer=[Finer(place_m=[1, 2, 3], radius_m=2, factor=3)],
+        points=[FracturePoint(position_m=[1, 2, 3])],
+        finer=[Finer(position_m=[1, 2, 3], radius_m=2, factor=3)],
     )
     scenario = replace(I235, fracture=settings)
     assert scenario_from_text(scenario_text(scenario)) == scenario

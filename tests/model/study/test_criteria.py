@@ -10,7 +10,7 @@ from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.scenario import Neighbour
 from bridge_demolition_addon.model.study.criteria import Criterion, check_criteria
 
-SITE = replace(I235, neighbours=(Neighbour(name="house", place_m=(30.0, 0.0, 2.0)),))
+SITE = replace(I235, neighbours=(Neighbour(name="house", position_m=(30.0, 0.0, 2.0)),))
 
 
 @pytest.mark.parametrize(

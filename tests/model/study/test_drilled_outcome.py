@@ -17,7 +17,7 @@ pytestmark = pytest.mark.slow
 
 DRILLED = replace(
     read_scenario(EXAMPLES / "drilled" / "two_spans.toml"),
-    neighbours=(Neighbour(name="house", place_m=(13.0, 40.0, 1.5)),),
+    neighbours=(Neighbour(name="house", position_m=(13.0, 40.0, 1.5)),),
 )
 SUMMARY = {"largest_resultant": None, "energy": None, "connections": {"count": 20, "broken": 7}, "came_to_rest_s": 2.5}
 

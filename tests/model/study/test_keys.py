@@ -14,9 +14,9 @@ from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.model.study.keys import changed, keys_named, names_to_propose
 
 CHARGES = (
-    Charge(name="mid pier", place_m=(0, 0, 1), mass_kg=10, delay_ms=5),
-    Charge(name="span", place_m=(1, 0, 1), mass_kg=20),
-    Charge(place_m=(2, 0, 1), mass_kg=30),
+    Charge(name="mid pier", position_m=(0, 0, 1), mass_kg=10, delay_ms=5),
+    Charge(name="span", position_m=(1, 0, 1), mass_kg=20),
+    Charge(position_m=(2, 0, 1), mass_kg=30),
 )
 REMOVALS = tuple(Removal(time_s=time, members=("pier 1",)) for time in (1.0, 2.0))
 BLASTED = replace(I235, charges=CHARGES, removals=REMOVALS)
@@ -34,7 +34,7 @@ BLASTED = replace(I235, charges=CHARGES, removals=REMOVALS)
         ('charges."mid pier".mass_kg', 10.0, "kg"),
         ("charges.span.mass_kg", 20.0, "kg"),
         ("charges.2.mass_kg", 20.0, "kg"),
-        ('charges."Charge 3".place_m.1', 2.0, "m"),
+        ('charges."Charge 3".position_m.1', 2.0, "m"),
         ("removals.2.time_s", 2.0, "s"),
         ('zones."Side road".corners_m.2.1', 23.0, "m"),
         ("connections.breaking_force_n", None, "N"),
@@ -59,7 +59,7 @@ def test_a_list_without_a_name_leads_to_all_of_it():
         'charges."Charge 3".delay_ms',
     ]
     assert [key.value for key in found] == [5.0, 0.0, 0.0]
-    assert [key.name for key in keys_named(BLASTED, "charges.place_m.3")][1] == "charges.span.place_m.3"
+    assert [key.name for key in keys_named(BLASTED, "charges.position_m.3")][1] == "charges.span.position_m.3"
 
 
 def test_each_name_that_is_found_leads_back_to_the_same_value():
@@ -77,7 +77,7 @@ def test_each_name_that_is_found_leads_back_to_the_same_value():
 
 def test_tables_of_one_name_are_told_apart_by_their_numbers():
     machines = tuple(
-        Equipment(name=name, mass_kg=30_000, place_m=(5, 0), footprint_m=(4, 3))
+        Equipment(name=name, mass_kg=30_000, position_m=(5, 0), footprint_m=(4, 3))
         for name in ("breaker", "breaker", "crane")
     )
     found = keys_named(replace(I235, equipment=machines), "equipment.mass_kg")

@@ -162,10 +162,10 @@ def test_zones_that_are_crossed_on_the_way_are_entered():
 
 
 def test_what_reaches_neighbours_is_what_the_report_says():
-    charge = Charge(name="one", place_m=(0, 0, 1), mass_kg=10.0)
-    house = Neighbour(name="house", place_m=(30.0, 0.0, 2.0))
+    charge = Charge(name="one", position_m=(0, 0, 1), mass_kg=10.0)
+    house = Neighbour(name="house", position_m=(30.0, 0.0, 2.0))
     scenario = replace(BARE, charges=(charge,), neighbours=(house,))
-    loads = loads_at(house.place_m, [charge])
+    loads = loads_at(house.position_m, [charge])
     outputs = outputs_of(thrown((0, 0, 6), (0, 0, 6)), scenario)
     assert outputs["neighbours.house.pressure_kPa"] == loads.peak_pa / 1000.0
     assert outputs["neighbours.house.vibration_mm_s"] == loads.peak_velocity_m_s * 1000.0

@@ -68,11 +68,14 @@ def test_steps_that_are_longer_already_stay():
 
 def test_it_ends_at_a_rest_that_is_no_stricter_than_the_scenarios():
     own, found = ELASTIC.time, coarse(ELASTIC).time
-    assert found.rest_speed_m_s >= own.rest_speed_m_s and found.rest_spin_rad_s >= own.rest_spin_rad_s
+    assert (
+        found.rest_speed_m_s >= own.rest_speed_m_s
+        and found.rest_angular_velocity_rad_s >= own.rest_angular_velocity_rad_s
+    )
     assert found.rest_hold_s <= own.rest_hold_s
-    loose = replace(own, rest_speed_m_s=0.7, rest_spin_rad_s=2.0, rest_hold_s=0.1)
+    loose = replace(own, rest_speed_m_s=0.7, rest_angular_velocity_rad_s=2.0, rest_hold_s=0.1)
     kept = coarse(replace(ELASTIC, time=loose)).time
-    assert (kept.rest_speed_m_s, kept.rest_spin_rad_s, kept.rest_hold_s) == (0.7, 2.0, 0.1)
+    assert (kept.rest_speed_m_s, kept.rest_angular_velocity_rad_s, kept.rest_hold_s) == (0.7, 2.0, 0.1)
 
 
 def test_sub_steps_are_those_of_the_run_while_waves_of_charges_pass():
@@ -108,7 +111,9 @@ def test_shards_of_the_users_own_numbers_and_points_are_left_out_and_it_can_be_b
     (member, *_) = prepared_members(I235).members
     position = tuple(member.solid.vertices.mean(axis=0).tolist())
     rules = (MemberFracture(member="deck", shards=300), MemberFracture(member="pier", stretch=(1.0, 1.0, 2.0)))
-    scenario = with_fracture(shards=500, members=rules, recursion_share=0.5, points=(FracturePoint(place_m=position),))
+    scenario = with_fracture(
+        shards=500, members=rules, recursion_share=0.5, points=(FracturePoint(position_m=position),)
+    )
     found = coarse(scenario).fracture
     assert found == FractureSettings(shards=SHARDS, members=rules[1:])
     assert len(build_model(coarse(scenario)).shards) == SHARDS

@@ -37,7 +37,7 @@ def test_quantities_are_converted(metric, imperial):
     [
         "v = 1140 mm/s (R/√Q)^-1.6 (free face, average rock)",
         "v = 3.37 cm/s (R / (E / 10 kJ)^(1/3))^-1.66 (Zhou)",
-        "  charges.one.place_m.1 = 3.172 m",
+        "  charges.one.position_m.1 = 3.172 m",
         "Report of Span of 13 m",
         "30 CFR 56.6310, of mines; 4 months; in 0.2 s",
         "Ø20 / s, 3 meals, 2 tons, 6 Nm/rad",

@@ -93,7 +93,7 @@ def test_a_picture_shows_a_charge_until_it_goes_off(blender, tmp_path):
 
     scene = blender.context.scene
     charges = [
-        Charge(name=name, place_m=position, mass_kg=1.0) for name, position in (("a", (-1, 0, 0)), ("b", (1, 0, 0)))
+        Charge(name=name, position_m=position, mass_kg=1.0) for name, position in (("a", (-1, 0, 0)), ("b", (1, 0, 0)))
     ]
     first, second = create_charges(scene, charges)
     prepare_pictures(scene, PictureSettings(width_px=160, height_px=90))

@@ -88,7 +88,7 @@ def test_bodies_of_a_touching_deck_each_get_their_own_load(blender, tmp_path, ap
         block.rigid_body.collision_collections = [group == row for group in range(20)]
     set_off(blocks, charges, apply)
     results = blocks.play(tmp_path, frames_for(blocks, 0.05))
-    differences = positions[:, None] - np.array([placed.place_m for placed in charges])[None]
+    differences = positions[:, None] - np.array([placed.position_m for placed in charges])[None]
     stand_offs = np.linalg.norm(differences, axis=2)
     directions = differences / stand_offs[..., None]
     areas = abs(directions).sum(axis=2)  # of a cube of 1 m whose faces look along the axes

@@ -28,12 +28,12 @@ def test_charges_are_where_they_were(built, hidden):
     built.ops.ed.undo_push(message="after")
     built.ops.ed.undo()
     assert built.context.scene.bda.scenario.seed == 0
-    assert [charge.place_m for charge in charges_of(built.context.scene)] == PLACES
+    assert [charge.position_m for charge in charges_of(built.context.scene)] == PLACES
 
 
 def test_a_charge_that_was_moved_just_now_is_where_it_was_moved_to(built):
     charge_objects(built.context.scene)[2].location.x = 3.0
-    assert charges_of(built.context.scene)[2].place_m == (3.0, 0.0, 3.5)
+    assert charges_of(built.context.scene)[2].position_m == (3.0, 0.0, 3.5)
 
 
 def test_a_charge_that_hangs_on_something_moves_with_it(built):
@@ -43,4 +43,4 @@ def test_a_charge_that_hangs_on_something_moves_with_it(built):
     charge_objects(scene)[2].parent = holder
     holder.location.y = 2.0
     built.context.view_layer.update()
-    assert charges_of(scene)[2].place_m == (6.5, 2.0, 3.5)
+    assert charges_of(scene)[2].position_m == (6.5, 2.0, 3.5)

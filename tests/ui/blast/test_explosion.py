@@ -26,7 +26,7 @@ def test_a_source_point_is_added_at_the_cursor(extension, settings):
         extension.ops.bda.add_source_point()
     first, second = charges_of(extension.context.scene)
     assert (first.name, second.name) == ("Charge 1", "Charge 2")
-    assert first.place_m == (1.5, -2.0, 3.0)
+    assert first.position_m == (1.5, -2.0, 3.0)
     assert (first.mass_kg, first.explosive, first.delay_s) == (10.0, "TNT", 0.0)
     assert settings.charge_index == 1
 
@@ -40,7 +40,7 @@ def test_the_button_puts_a_charge_at_the_face_of_the_nearest_pier(extension, set
     scene.cursor.location = (12.0, -1.2, 0.0)
     extension.ops.bda.add_source_point(at_pier=True)
     (charge,) = charges_of(scene)
-    assert charge.place_m == pytest.approx((10.4, -1.5, 1.0), abs=1e-6)
+    assert charge.position_m == pytest.approx((10.4, -1.5, 1.0), abs=1e-6)
     assert charge.burst == "surface"
 
 
@@ -52,10 +52,10 @@ def test_a_built_pier_takes_it_and_a_cursor_on_the_bridge_keeps_it(built):
     (first,) = charges_of(scene)
     across_m = bridge.deck.width_m * (0.5 / bridge.piers.columns - 0.5)
     face = (-bridge.piers.column_length_m / 2.0, abs(across_m), 1.0)
-    assert (first.place_m[0], abs(first.place_m[1]), first.place_m[2]) == pytest.approx(face, abs=1e-5)
+    assert (first.position_m[0], abs(first.position_m[1]), first.position_m[2]) == pytest.approx(face, abs=1e-5)
     scene.cursor.location = (bridge.spans_m / 2.0, 0.0, deck_top(bridge))
     built.ops.bda.add_source_point(at_pier=True)
-    assert charges_of(scene)[1].place_m == pytest.approx(tuple(scene.cursor.location))
+    assert charges_of(scene)[1].position_m == pytest.approx(tuple(scene.cursor.location))
     assert charges_of(scene)[1].burst == "air"
 
 
@@ -63,7 +63,7 @@ def test_without_a_pier_it_is_at_the_cursor(extension, settings):
     settings.scenario.use_bridge = False
     extension.context.scene.cursor.location = (1.5, -2.0, 3.0)
     extension.ops.bda.add_source_point(at_pier=True)
-    assert charges_of(extension.context.scene)[0].place_m == (1.5, -2.0, 3.0)
+    assert charges_of(extension.context.scene)[0].position_m == (1.5, -2.0, 3.0)
 
 
 def test_choosing_a_charge_selects_it(extension, settings):

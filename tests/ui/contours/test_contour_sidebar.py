@@ -201,7 +201,7 @@ def test_rings_are_as_wide_as_the_stand_off(recorded):
     from bridge_demolition_addon.scene.blast.charges import create_charges
     from bridge_demolition_addon.ui.contours.decorator import ring_lines
 
-    charge = Charge(name="A", place_m=(1.0, 2.0, 0.5), mass_kg=5.0)
+    charge = Charge(name="A", position_m=(1.0, 2.0, 0.5), mass_kg=5.0)
     create_charges(recorded.scene, [charge])
     recorded.scene.view_layers[0].update()
     recorded.scene.bda.ring_damage = "4"

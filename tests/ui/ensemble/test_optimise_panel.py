@@ -15,7 +15,7 @@ from bridge_demolition_addon.ui.ensemble import optimise as sidebar
 from bridge_demolition_addon.ui.ensemble.optimise import WORK, shown_optimisation
 from bridge_demolition_addon.ui.scenario.values import show_scenario
 
-CHARGE = Charge(name="one", place_m=(6.0, 0.0, 1.0), mass_kg=20.0)
+CHARGE = Charge(name="one", position_m=(6.0, 0.0, 1.0), mass_kg=20.0)
 VERY_SHORT = replace(
     SHORT_RUN,
     ball=None,

@@ -62,7 +62,7 @@ def test_what_the_panel_shows_is_what_is_asked(panel):
     assert (asked.settings.key, asked.settings.lowest, asked.settings.highest) == ("ball.drop_height_m", 0.05, 0.1)
     assert (asked.settings.factor, asked.settings.trials) == (False, 10)
     assert [criterion.kind for criterion in asked.settings.criteria] == ["collapsed"]
-    charge = Charge(name="one", place_m=(6.0, 0.0, 1.0), mass_kg=20.0)
+    charge = Charge(name="one", position_m=(6.0, 0.0, 1.0), mass_kg=20.0)
     show_scenario(panel, replace(SHORT_RUN, ball=None, charges=(charge,), blast=BlastSettings(start_s=0.1)))
     panel.search_quantity, panel.search_criterion, panel.search_span = "CHARGES", "SPAN_DOWN", 1
     asked = shown_search(panel)

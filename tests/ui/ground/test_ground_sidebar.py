@@ -23,7 +23,7 @@ SHORT = replace(
     blast=replace(SCENARIO.blast, start_s=0.1),
     connections=replace(SCENARIO.connections, strength_factor=0.05),
     zones=(ROAD,),
-    neighbours=(Neighbour(name="School", place_m=(60.0, 10.0, 0.0)),),
+    neighbours=(Neighbour(name="School", position_m=(60.0, 10.0, 0.0)),),
     exclusion=Exclusion(buffer_m=10.0),
 )
 ALL = {"EXCLUSION", "ZONES", "DEBRIS", "RINGS", "NEIGHBOURS", "WAY", "FLASHES", "NAMES"}

@@ -76,7 +76,7 @@ def test_what_is_dragged_is_run_and_nothing_of_it_gets_into_the_scene(shown, bes
     assert said()[0] == "Preview in 10 shards: one coarse run, no forecast"
     assert said()[-1].startswith("The run ended after 0.5 s")
     process_id = beside.process.process_id
-    assert extension.ops.bda.drag_handle(kind="TARGET", place_m=(4.0, 1.0, 0.0)) == {"FINISHED"}
+    assert extension.ops.bda.drag_handle(kind="TARGET", position_m=(4.0, 1.0, 0.0)) == {"FINISHED"}
     assert beside.follow(shown) and beside.is_of_before
     assert said()[-1] == "These are the values before; a new run goes on"
     assert not beside.follow(shown)  # nothing has changed since
@@ -109,7 +109,7 @@ def test_it_says_what_elastic_previews_are_worth_and_what_still_falls(shown, bes
 @pytest.mark.long
 def test_what_was_shown_before_needs_no_run(shown, beside, extension):
     first = follow_to_end(beside, shown)
-    extension.ops.bda.drag_handle(kind="TARGET", place_m=(4.0, 1.0, 0.0))
+    extension.ops.bda.drag_handle(kind="TARGET", position_m=(4.0, 1.0, 0.0))
     follow_to_end(beside, shown)
     beside.end()
     shown.scenario.ball.target_m = SHORT_RUN.ball.target_m

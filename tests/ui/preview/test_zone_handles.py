@@ -56,7 +56,7 @@ def test_boxes_are_drawn_before_anything_is_built_and_follow_what_is_dragged(sho
     before = drawn(shown)
     assert before[0].text == "P2.1: 0 ms"
     assert [len(part.lines) for part in before[:2]] == [24, 20]
-    assert extension.ops.bda.drag_handle(kind="ZONE", index=0, place_m=(0.0, 0.0, 2.0)) == {"FINISHED"}
+    assert extension.ops.bda.drag_handle(kind="ZONE", index=0, position_m=(0.0, 0.0, 2.0)) == {"FINISHED"}
     after = drawn(shown)
     np.testing.assert_allclose(after[0].lines[:, 2] - before[0].lines[:, 2], 0.5, atol=1e-6)
     np.testing.assert_allclose(after[1].lines[:, 2] - before[1].lines[:, 2], 0.5, atol=1e-6)
@@ -66,11 +66,11 @@ def test_boxes_are_drawn_before_anything_is_built_and_follow_what_is_dragged(sho
 
 def test_an_end_is_dragged_by_itself(shown, extension):
     drag = extension.ops.bda.drag_handle
-    assert drag(kind="ZONE_END", index=1, place_m=(0.0, 0.0, 2.604)) == {"FINISHED"}
+    assert drag(kind="ZONE_END", index=1, position_m=(0.0, 0.0, 2.604)) == {"FINISHED"}
     zone = zone_of(shown, 1)
     assert zone.ends_along_m == pytest.approx((0.75, 2.6))
     assert (zone.middle_m, zone.height_m) == (1.675, 1.85)
-    assert drag(kind="ZONE_BEGIN", index=1, place_m=(9.0, 9.0, 0.5)) == {"FINISHED"}
+    assert drag(kind="ZONE_BEGIN", index=1, position_m=(9.0, 9.0, 0.5)) == {"FINISHED"}
     assert zone_of(shown, 1).ends_along_m == pytest.approx((0.5, 2.6))
     assert zone_of(shown, 0).ends_along_m == (0.75, 2.25)
 
@@ -78,11 +78,11 @@ def test_an_end_is_dragged_by_itself(shown, extension):
 def test_a_zone_stays_in_its_member_and_as_long_as_its_rows(shown, extension):
     """Five holes 0.3 m apart, staggered by 0.15 m, take 1.35 m."""
     drag = extension.ops.bda.drag_handle
-    drag(kind="ZONE_END", index=0, place_m=(0.0, 0.0, 0.2))
+    drag(kind="ZONE_END", index=0, position_m=(0.0, 0.0, 0.2))
     assert zone_of(shown).ends_along_m == pytest.approx((0.75, 2.1))
-    drag(kind="ZONE", index=0, place_m=(0.0, 0.0, -7.0))
+    drag(kind="ZONE", index=0, position_m=(0.0, 0.0, -7.0))
     assert zone_of(shown).ends_along_m == pytest.approx((0.0, 1.35))
-    drag(kind="ZONE", index=0, place_m=(0.0, 0.0, 99.0))
+    drag(kind="ZONE", index=0, position_m=(0.0, 0.0, 99.0))
     from bridge_demolition_addon.model.bridge.preparation import prepared_members
 
     (column,) = [member for member in prepared_members(DRILLED).members if member.name == "pier 2 column 1"]
@@ -97,15 +97,15 @@ def test_a_zone_is_not_dragged_into_another(shown, extension, tmp_path):
     path.write_text(scenario_text(replace(DRILLED, blast_zones=(first, above, *others))), encoding="utf-8")
     shown.bda.scenario_path = str(path)
     assert extension.ops.bda.load_scenario() == {"FINISHED"}
-    extension.ops.bda.drag_handle(kind="ZONE_END", index=0, place_m=(0.0, 0.0, 4.0))
+    extension.ops.bda.drag_handle(kind="ZONE_END", index=0, position_m=(0.0, 0.0, 4.0))
     assert zone_of(shown).ends_along_m == pytest.approx((0.75, 2.9))
-    extension.ops.bda.drag_handle(kind="ZONE", index=1, place_m=(0.0, 0.0, 0.0))
+    extension.ops.bda.drag_handle(kind="ZONE", index=1, position_m=(0.0, 0.0, 0.0))
     assert zone_of(shown, 1).ends_along_m == pytest.approx((2.9, 3.5))
 
 
 def test_what_was_dragged_is_built(shown, extension):
     shown.bda.scenario.fracture.shards = 30
-    extension.ops.bda.drag_handle(kind="ZONE_END", index=0, place_m=(0.0, 0.0, 2.8))
+    extension.ops.bda.drag_handle(kind="ZONE_END", index=0, position_m=(0.0, 0.0, 2.8))
     assert extension.ops.bda.build_scenario() == {"FINISHED"}
     from bridge_demolition_addon.scene.run_tables import run_tables_of
 
@@ -127,7 +127,7 @@ def test_handles_are_gone_once_time_has_begun(shown, extension):
 def test_undo_takes_the_numbers_and_the_box_back(shown, extension):
     ops = extension.ops
     ops.ed.undo_push(message="before")
-    assert ops.bda.drag_handle("EXEC_DEFAULT", True, kind="ZONE", index=0, place_m=(0.0, 0.0, 2.0)) == {"FINISHED"}
+    assert ops.bda.drag_handle("EXEC_DEFAULT", True, kind="ZONE", index=0, position_m=(0.0, 0.0, 2.0)) == {"FINISHED"}
     assert zone_of(extension.context.scene).middle_m == 2.0
     ops.ed.undo()
     scene = extension.context.scene
@@ -141,4 +141,4 @@ def test_zones_that_lie_in_no_member_have_no_handles_and_no_boxes(shown, extensi
     assert {index for kind, index in handles_of(shown) if kind == "ZONE"} == {2, 3, 4, 5}
     assert len(drawn(shown)) == 2 * 4
     with pytest.raises(RuntimeError, match="no zone end 2 here"):
-        extension.ops.bda.drag_handle(kind="ZONE_END", index=1, place_m=(0.0, 0.0, 1.0))
+        extension.ops.bda.drag_handle(kind="ZONE_END", index=1, position_m=(0.0, 0.0, 1.0))

@@ -125,7 +125,7 @@ def summary_in(folder):
 
 
 def test_every_setting_of_time_is_tried():
-    taken_at_run = {"stop_at_rest", "rest_speed_m_s", "rest_spin_rad_s", "rest_hold_s"}
+    taken_at_run = {"stop_at_rest", "rest_speed_m_s", "rest_angular_velocity_rad_s", "rest_hold_s"}
     assert {f"time.{field.name}" for field in fields(TimeSettings) if field.name not in taken_at_run} <= set(CHANGES)
 
 

@@ -17,7 +17,9 @@ EVERYTHING = SMALL.parents[1] / "simulation" / "everything.toml"
 
 OF_A_RUN = {"scenario.title", "blast", "recording", "pictures", "report"}
 OF_A_RUN |= {"zones", "exclusion", "site", "neighbours", "equipment"}
-OF_A_RUN |= {f"time.{name}" for name in ("stop_at_rest", "rest_speed_m_s", "rest_spin_rad_s", "rest_hold_s")}
+OF_A_RUN |= {
+    f"time.{name}" for name in ("stop_at_rest", "rest_speed_m_s", "rest_angular_velocity_rad_s", "rest_hold_s")
+}
 """What a run takes as the panels show it when it begins."""
 
 

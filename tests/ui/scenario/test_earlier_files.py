@@ -10,7 +10,7 @@ from support.checkout import PRESETS, SMALL
 from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.scene.bodies import bodies_of, kind_of
 from bridge_demolition_addon.ui.scenario.built import changes, scenario_to_run
-from bridge_demolition_addon.ui.scenario.earlier import mark_defaults, tick_own_values
+from bridge_demolition_addon.ui.scenario.earlier import mark_defaults, read_earlier_keys, tick_own_values
 from bridge_demolition_addon.ui.scenario.hints import contact_note
 from bridge_demolition_addon.ui.scenario.operator import build_and_show
 from bridge_demolition_addon.ui.scenario.prop import default_scenario
@@ -113,3 +113,15 @@ def test_an_earlier_file_without_any_of_our_values_has_those_of_today(extension,
     extension.app.handlers.save_pre.append(mark_defaults)
     extension.ops.wm.open_mainfile(filepath=str(tmp_path / "earlier.blend"))
     assert scenario_of(extension.context.scene.bda) == default_scenario()
+
+
+def test_values_under_earlier_names_of_keys_are_read(settings):
+    scenario = read_scenario(SMALL)
+    settings.scenario.neighbours.add()
+    kept = settings.scenario.neighbours[0].bl_system_properties_get(do_create=True)
+    kept["place_m"] = [1.0, 2.0, 3.0]
+    settings.built_values = '{"neighbours.1.place_m": 1}'
+    read_earlier_keys()
+    assert tuple(settings.scenario.neighbours[0].position_m) == (1.0, 2.0, 3.0)
+    assert settings.built_values == '{"neighbours.1.position_m": 1}'
+    assert scenario.time.rest_angular_velocity_rad_s > 0.0

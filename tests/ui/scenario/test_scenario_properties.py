@@ -120,8 +120,8 @@ def test_labels_end_with_no_unit_that_blender_shows_itself():
 def test_labels_use_the_words_of_the_glossary():
     labels = {f"{table.table}.{item.name}": label_of(table, item) for table, item in KEYS}
     assert labels["search.trials"] == "Runs"
-    assert labels["neighbours.place_m"] == "Position"
-    assert labels["time.rest_spin_rad_s"] == "Rest Angular Velocity (rad/s)"
+    assert labels["neighbours.position_m"] == "Position"
+    assert labels["time.rest_angular_velocity_rad_s"] == "Rest Angular Velocity (rad/s)"
     assert not {"Trials", "Draws", "Place", "Spin"} & {word for label in labels.values() for word in label.split()}
 
 

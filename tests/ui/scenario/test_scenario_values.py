@@ -44,7 +44,9 @@ def test_another_scenario_leaves_nothing_of_the_one_before(settings):
 def test_random_scenarios_come_back_as_they_were(settings, seed):
     random = np.random.default_rng(seed)
     scenario = varied(read_scenario(FILES[seed % len(FILES)]), random)
-    charge = Charge(place_m=tuple(random.normal(size=3)), mass_kg=random.uniform(0, 9), delay_ms=random.uniform(0, 9))
+    charge = Charge(
+        position_m=tuple(random.normal(size=3)), mass_kg=random.uniform(0, 9), delay_ms=random.uniform(0, 9)
+    )
     time = replace(scenario.time, duration_s=max(scenario.time.duration_s, scenario.blast.start_s + 1.0))
     scenario = replace(scenario, time=time, charges=(*scenario.charges, charge, replace(charge, name="x" * 80)))
     show_scenario(settings, scenario)
@@ -128,7 +130,7 @@ def test_charges_are_read_from_where_they_are_now(settings):
     charge["bda_delay_s"] = 0.025
     charge.name = "Third"
     found = scenario_of(settings).charges[1]
-    assert found == replace(scenario.charges[1], name="Third", place_m=(12.5, 0.0, 1.0), mass_kg=75.5, delay_ms=25.0)
+    assert found == replace(scenario.charges[1], name="Third", position_m=(12.5, 0.0, 1.0), mass_kg=75.5, delay_ms=25.0)
 
 
 def test_a_charge_with_a_wrong_property_is_refused(settings):

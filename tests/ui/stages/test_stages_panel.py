@@ -18,7 +18,7 @@ from bridge_demolition_addon.ui.scenario.values import show_scenario
 from bridge_demolition_addon.ui.stages.shown import checked_in
 from bridge_demolition_addon.ui.stages.ui import BDA_PT_stages
 
-EXCAVATOR = Equipment(name="excavator", mass_kg=10_000.0, place_m=(6.0, 0.0), footprint_m=(2.0, 2.0), from_s=0.5)
+EXCAVATOR = Equipment(name="excavator", mass_kg=10_000.0, position_m=(6.0, 0.0), footprint_m=(2.0, 2.0), from_s=0.5)
 STANDS = replace(
     I235,
     ball=None,
@@ -126,7 +126,7 @@ def test_utilisation_without_stages_says_what_to_do(blender, panel):
 
 
 def test_equipment_beside_the_bridge_is_refused_with_a_sentence(blender, panel):
-    show_scenario(panel, replace(STANDS, equipment=(replace(EXCAVATOR, place_m=(100.0, 0.0)),)))
+    show_scenario(panel, replace(STANDS, equipment=(replace(EXCAVATOR, position_m=(100.0, 0.0)),)))
     with pytest.raises(RuntimeError, match="nothing of the bridge is under"):
         blender.ops.bda.check_stages()
     assert checked_in(blender.context.scene) is None
