@@ -31,14 +31,14 @@ def said_anew():
 def test_a_file_with_earlier_names_is_the_same_scenario_and_a_line_names_the_present_one(caplog):
     earlier, now = (scenario_from_text(TEXT + OTHERS.format(name, name)) for name in ("place_m", "position_m"))
     assert earlier == now
-    assert [record.getMessage() for record in caplog.records] == [
-        "neighbours.place_m is neighbours.position_m now: its earlier name will be refused some day",
+    assert sorted(record.getMessage() for record in caplog.records) == [
         "charges.place_m is charges.position_m now: its earlier name will be refused some day",
+        "neighbours.place_m is neighbours.position_m now: its earlier name will be refused some day",
     ]
 
 
 def test_both_names_at_once_are_refused():
-    with pytest.raises(ScenarioError, match=r"charges\.place_m is given with its present name, position_m: expected one"):
+    with pytest.raises(ScenarioError, match=r"charges\.place_m is given with its present name"):
         scenario_from_text(TEXT + OTHERS.format("position_m", "place_m = [0.0, 0.0, 1.0]\nposition_m"))
 
 
