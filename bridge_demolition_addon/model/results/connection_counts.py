@@ -60,7 +60,6 @@ class ConnectionCounts:
             return cls(known["count"], known["broken"], cracked, None, known["broken"] - cracked)
         return cls(known["count"], known["broken"], *(known.get(name) for name in ("cracked", "yielded", "torn")))
 
-    @property
     def to_json(self) -> dict[str, int | None]:
         """Those that `broken` does not tell apart, ready for JSON."""
         return {"cracked": self.cracked, "yielded": self.yielded, "torn": self.torn}

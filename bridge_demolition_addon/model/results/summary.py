@@ -129,7 +129,7 @@ def _connections(results: Results) -> dict[str, Any]:
         "count": count,
         "intact": int(intact[-1]),
         "broken": int(count - intact[-1]),
-        **ConnectionCounts.of_results(results).to_json,
+        **ConnectionCounts.of_results(results).to_json(),
         "over_time": {
             "time_s": results.frames.time_s[shown].tolist(),
             "intact": intact[shown].tolist(),
