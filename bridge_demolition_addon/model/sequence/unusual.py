@@ -57,7 +57,7 @@ def _machines(scenario: Scenario, bridge_kg: float) -> Iterator[str]:
 
 def _neighbours(scenario: Scenario, site: ModelWorksite) -> Iterator[str]:
     for neighbour in scenario.neighbours:
-        if inside := site.member_within(neighbour.place_m, _POINT_M):
+        if inside := site.member_within(neighbour.position_m, _POINT_M):
             yield f"{neighbour.name} lies in {inside}, as no neighbour does (is its place right?)"
 
 
