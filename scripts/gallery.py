@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Make the gallery: run every example, put its pictures side by side, and write what its file says of it.
+"""Make the gallery: run every example, put its pictures side by side, and write what `gallery_texts.toml` says of it.
 
 Runs go to runs/gallery/NAME, pictures to docs/pictures/gallery/NAME.jpg. The page docs/gallery.md is rewritten. With
 names of examples only those are run again; all other texts and times stay. With --pictures nothing is run: pictures are
@@ -46,13 +46,13 @@ width_px = {width}
 height_px = {height}
 """
 PICTURES_ALONE = "--pictures"
-LEFT_OUT = ("Every key is explained", "bda ")
-"""Beginnings of paragraphs that examples have and the page does without: its head says how each is run."""
+TEXTS = Path(__file__).with_name("gallery_texts.toml")
+"""What the page says of each example, by its file."""
 
 HEADER = """\
 # Gallery
 
-<!-- Made by `scripts/gallery`: change the examples' own comments instead. -->
+<!-- Made by `scripts/gallery`: change `scripts/gallery_texts.toml` instead. -->
 
 Every example is a [scenario file](scenario.md) to start from. Run it with `bda run examples/NAME.toml --output DIR`.
 Add `--report` for a [report](report.md). The pictures show the start, the impact (or the blast, or the largest force)
@@ -195,13 +195,28 @@ def side_by_side(folder: Path, target: Path) -> None:
 
 
 def page() -> str:
-    """Return the page, made of the comments of the examples."""
+    """Return the page, made of the texts on the examples."""
     taken = times()
     header = HEADER.format(looks=looks(), minutes=max(1, round(sum(taken.values()) / 60.0)), table=table(EXAMPLES))
     now, of_2019 = (
         [section(path, taken.get(name(path))) for path in examples(folder)] for folder in (EXAMPLES, REPORT_2019)
     )
-    return "\n".join([header, *now, HEADER_2019.format(table=table(REPORT_2019)), *of_2019, STUDY])
+    return "\n".join([header, *now, HEADER_2019.format(table=table(REPORT_2019)), *of_2019, STUDY, others()])
+
+
+def others() -> str:
+    """Return what is said of all other examples: variants, studies, searches, stages."""
+    shown = {path.relative_to(EXAMPLES).as_posix() for path in (*examples(), *examples(REPORT_2019))}
+    sections = []
+    for path in (EXAMPLES / file for file in texts() if file not in shown):
+        heading = f"### {path.relative_to(EXAMPLES).with_suffix('').as_posix()}"
+        sections.append("\n\n".join([heading, *paragraphs(path), f"File: [{path.name}]({link(path)})."]))
+    return "\n\n".join(["## Other examples", *sections]) + "\n"
+
+
+def texts() -> dict[str, dict[str, str]]:
+    """Return what is said of examples, by their files in the folder of all."""
+    return tomllib.loads(TEXTS.read_text(encoding="utf-8"))
 
 
 def looks() -> str:
@@ -228,21 +243,18 @@ def title(path: Path) -> str:
 
 def section(path: Path, seconds: float | None) -> str:
     """Return the section of an example: its title, its pictures, its words and how long it takes."""
-    words = [paragraph for paragraph in paragraphs(path) if not paragraph.startswith(LEFT_OUT)]
     took = [] if seconds is None else [f"Takes {rounded(seconds)} s."]
     file = f"[{path.name}]({link(path)})"
     picture = f"![{title(path)}: at the start, at the decisive moment, at the end](pictures/gallery/{name(path)}.jpg)"
-    return "\n\n".join([f"## {title(path)}", picture, *words, " ".join([f"Scenario: {file}.", *took])]) + "\n"
+    return (
+        "\n\n".join([f"## {title(path)}", picture, *paragraphs(path), " ".join([f"Scenario: {file}.", *took])]) + "\n"
+    )
 
 
 def paragraphs(path: Path) -> list[str]:
-    """Return the paragraphs of the comment at the head of an example."""
-    lines = []
-    for line in path.read_text(encoding="utf-8").splitlines():
-        if not line.startswith("#"):
-            break
-        lines.append(line.removeprefix("#").strip())
-    return [" ".join(word.split("\n")) for word in "\n".join(lines).split("\n\n")]
+    """Return the paragraphs on an example."""
+    told = texts()[path.relative_to(EXAMPLES).as_posix()]["text"]
+    return [paragraph.replace("\n", " ").strip() for paragraph in told.split("\n\n")]
 
 
 def rounded(seconds: float) -> int:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The gallery shows every example, with what its file says now."""
+"""The gallery shows every example, with what its source says now; examples themselves begin with five lines."""
 
 import re
 
@@ -21,6 +21,17 @@ def test_every_example_tells_what_there_is_to_see_what_is_assumed_and_how_far_to
 def test_those_of_2019_say_that_a_demolition_of_today_is_planned_with_others(path):
     first = gallery.paragraphs(path)[0]
     assert "2019 report" in first and "a demolition of today is planned with bars" in first
+
+
+def test_heads_of_examples_have_five_lines():
+    for path in gallery.EXAMPLES.rglob("*.toml"):
+        lines = path.read_text(encoding="utf-8").splitlines()
+        head = next((number for number, line in enumerate(lines) if not line.startswith("#")), len(lines))
+        assert head <= 5, path
+
+
+def test_texts_are_of_examples_that_are_there():
+    assert [file for file in gallery.texts() if not (gallery.EXAMPLES / file).is_file()] == []
 
 
 def test_the_page_is_made_of_what_the_examples_say():
