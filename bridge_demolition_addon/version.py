@@ -1,3 +1,3 @@
 """Version of this program, for packages, reports and the command line."""
 
-VERSION = "0.1.0"
+VERSION = "0.2.0"
