@@ -209,7 +209,7 @@ def others() -> str:
     shown = {path.relative_to(EXAMPLES).as_posix() for path in (*examples(), *examples(REPORT_2019))}
     sections = []
     for path in (EXAMPLES / file for file in texts() if file not in shown):
-        heading = f"### {path.relative_to(EXAMPLES).with_suffix('').as_posix()}"
+        heading = f"### {path.relative_to(ROOT).as_posix()}"
         sections.append("\n\n".join([heading, *paragraphs(path), f"File: [{path.name}]({link(path)})."]))
     return "\n\n".join(["## Other examples", *sections]) + "\n"
 
