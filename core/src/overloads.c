@@ -326,18 +326,30 @@ int bda_used_in_cuts(const bda_judging *j, const bda_loads_in_cuts *loads)
     return BDA_DONE;
 }
 
+/* Find the intact faces of a section that hang together with a connection, and return how many there are; -1 where there
+ * are more than there is room for, or numbers are out of range. */
+static int64_t faces_that_hang_together(const bda_judging *j, const bda_loads_in_cuts *loads, int64_t number)
+{
+    int64_t count = 0, own = loads->parts[loads->rows[number]];
+    for (int64_t entry = loads->starts[number]; entry < loads->starts[number + 1]; entry++) {
+        int64_t face = loads->through[entry].face;
+        if (face < 0 || face >= j->connections || count == j->most_faces)
+            return -1;
+        if (j->intact[face] && loads->parts[face] == own)
+            j->found[count++] = entry;
+    }
+    return count;
+}
+
 /* Write utilisations of one section of each of some connections, through other faces than those of its two cuts. */
 int bda_used_in_sections(const bda_judging *j, const bda_loads_in_cuts *loads)
 {
     for (int64_t number = 0; number < loads->count; number++) {
-        int64_t row = loads->rows[number], start = loads->starts[number], count = loads->starts[number + 1] - start;
-        if (row < 0 || row >= j->connections || start < 0 || count < 0 || count > j->most_faces)
+        if (loads->rows[number] < 0 || loads->rows[number] >= j->connections || loads->starts[number] < 0)
             return BDA_OUT_OF_RANGE;
-        for (int64_t at = 0; at < count; at++) {
-            j->found[at] = start + at;
-            if (loads->through[start + at].face < 0 || loads->through[start + at].face >= j->connections)
-                return BDA_OUT_OF_RANGE;
-        }
+        int64_t count = faces_that_hang_together(j, loads, number);
+        if (count < 0)
+            return BDA_OUT_OF_RANGE;
         loads->used[number] = used_by_given(j, loads, loads->through, number, count);
     }
     return BDA_DONE;

@@ -68,6 +68,7 @@ typedef struct {
     const double *forces, *moments, *points;  /* (m, 3) */
     const int64_t *starts;                    /* (r + 1,), first face of a section of each, where it is not judged by cuts */
     const bda_cut_through *through;           /* (e,) */
+    const int64_t *parts;                     /* (m,), what hangs together, which no section goes beyond */
     double *used;                             /* (r,), utilisations by whole strengths: of the section, or the mean of cuts */
 } bda_loads_in_cuts;
 

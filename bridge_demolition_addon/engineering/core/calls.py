@@ -9,7 +9,7 @@ import numpy as np
 
 from ...errors import NotFiniteError
 from .library import function
-from .structs import Struct
+from .structs import Struct, address_of
 
 DONE, NO_MEMORY, OUT_OF_RANGE, NOT_FINITE = range(4)
 """Answers of functions: those of `core/src/vectors.h`."""
@@ -68,7 +68,7 @@ def _given(argument: Struct | np.ndarray | float) -> tuple[Any, int | float]:
     if isinstance(argument, np.ndarray):
         if argument.dtype.str not in _TYPES or not argument.flags.c_contiguous:
             raise ValueError(f"the core gets no numbers of type {argument.dtype}, nor any out of order")
-        return ctypes.c_void_p, argument.__array_interface__["data"][0]
+        return ctypes.c_void_p, address_of(argument)
     if isinstance(argument, Struct):
         return ctypes.c_void_p, ctypes.addressof(argument)
     return ctypes.c_double if isinstance(argument, float) else ctypes.c_int64, argument

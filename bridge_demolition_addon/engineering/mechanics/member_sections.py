@@ -49,43 +49,39 @@ class MemberSections:
         first, second = faces.pairs.T
         self._before = np.where(moves[first, None], centres_m[first], faces.points_m - beyond)
         self._behind = np.where(moves[second, None], centres_m[second], faces.points_m + beyond)
-        self._known: dict[int, tuple[FloatArray, FloatArray, FloatArray]] = {}
+        self._known: dict[int, np.ndarray] = {}
+        self._is_known, self._are_whole = np.zeros((2, len(first)), bool)
 
     def are_whole(self, rows: IntArray) -> BoolArray:
         """Whether the sections of some connections (k,) are those of their members, as they were built: (k,) bool."""
-        in_sections = map(self._faces, rows.tolist())
-        areas = np.array([(self._connected.areas_m2[faces] * cosines).sum() for faces, _, cosines in in_sections])
-        return areas >= WHOLE * np.square(self._thicknesses[rows])
+        for row in rows[~self._is_known[rows]].tolist():
+            self._find(row)
+        return self._are_whole[rows]
 
-    def through(self, rows: IntArray, parts: IntArray) -> tuple[IntArray, np.ndarray]:
-        """Return the first face (k + 1,) of the section of each intact connection (k,), and all faces (e,).
-
-        `parts` (m,) are numbers of what hangs together, which no section goes beyond; negative for broken connections.
-        """
-        in_sections = [self._faces(row) for row in rows.tolist()]
-        owners = np.repeat(np.arange(len(rows)), [len(faces) for faces, _, _ in in_sections])
-        faces, signs, cosines = (np.concatenate(arrays) for arrays in zip(*in_sections, strict=True))
-        holds = parts[faces] == parts[rows][owners]
-        starts = np.searchsorted(owners[holds], np.arange(len(rows) + 1))
-        return starts, pack(CUT_THROUGH, face=faces[holds], sign=signs[holds], cosine=cosines[holds])
-
-    def _faces(self, row: int) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Connections (e,) in the section of one, on which side of it their first bodies are, and their cosines.
+    def through(self, rows: IntArray) -> tuple[IntArray, np.ndarray]:
+        """Return the first face (k + 1,) of the section of each connection (k,), and all their faces (e,) packed.
 
         Where the section doubles back, a face carries a load, and has no area.
         """
-        if row not in self._known:
-            point, normal = self._connected.points_m[row], self._connected.normals[row]
-            apart = self._connected.points_m - point
-            near = np.flatnonzero(dot(apart, apart) <= self._extents[row] * self._extents[row])
-            near = near[(self._kinds[near] == self._kinds[row]) | (near == row)]
-            before, behind = dot(self._before[near] - point, normal), dot(self._behind[near] - point, normal)
-            parted = (before * behind < 0.0) | (near == row)
-            near, before, behind = near[parted], before[parted], behind[parted]
-            signs = np.where((before < behind) | (near == row), 1.0, -1.0)
-            cosines = np.maximum(signs * dot(self._connected.normals[near], normal), 0.0)
-            self._known[row] = near, signs, cosines
-        return self._known[row]
+        self.are_whole(rows)
+        in_sections = [self._known[row] for row in rows.tolist()]
+        starts = np.cumsum([0, *map(len, in_sections)])
+        return starts, np.concatenate(in_sections)
+
+    def _find(self, row: int) -> None:
+        """Find the connections in the section of one, on which side of it their first bodies are, and their cosines."""
+        point, normal = self._connected.points_m[row], self._connected.normals[row]
+        apart = self._connected.points_m - point
+        near = np.flatnonzero(dot(apart, apart) <= self._extents[row] * self._extents[row])
+        near = near[(self._kinds[near] == self._kinds[row]) | (near == row)]
+        before, behind = dot(self._before[near] - point, normal), dot(self._behind[near] - point, normal)
+        parted = (before * behind < 0.0) | (near == row)
+        near, before, behind = near[parted], before[parted], behind[parted]
+        signs = np.where((before < behind) | (near == row), 1.0, -1.0)
+        cosines = np.maximum(signs * dot(self._connected.normals[near], normal), 0.0)
+        area_m2 = (self._connected.areas_m2[near] * cosines).sum()
+        self._known[row] = pack(CUT_THROUGH, face=near, sign=signs, cosine=cosines)
+        self._is_known[row], self._are_whole[row] = True, area_m2 >= WHOLE * self._thicknesses[row] ** 2
 
 
 def kinds_of(members: IntArray) -> IntArray:

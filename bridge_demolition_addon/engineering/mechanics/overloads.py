@@ -61,6 +61,7 @@ class LoadsInCuts(Struct):
         *((name, Doubles) for name in ("axes", "forces", "moments", "points")),
         ("starts", Indices),
         ("through", CutsThrough),
+        ("parts", Indices),
         ("used", WrittenDoubles),
     )
 
@@ -264,8 +265,11 @@ class Overloads:
         used = np.empty(len(rows))
         if whole.any():
             in_sections, found = self._given(rows[whole], loads, axes[whole])
-            starts, through = members.through(rows[whole], np.where(intact, parts, -1))
-            in_sections.take(starts=(starts, len(starts)), through=(through, len(through)))
+            starts, through = members.through(rows[whole])
+            in_sections.take(
+                starts=(starts, len(starts)), through=(through, len(through)), parts=(parts, len(self._pairs))
+            )
+            self._judging.take(intact=(intact, len(self._pairs)))
             call("bda_used_in_sections", self._judging, in_sections)
             used[whole] = found
         if not whole.all():

@@ -106,8 +106,10 @@ class PulledSlab:
 
     def sections_of_parts(self, rows: np.ndarray, parts: np.ndarray) -> tuple[SectionForces, np.ndarray, np.ndarray]:
         """The same, by the parts that connections hold together."""
-        starts, through = self.member_sections().through(rows, parts)
+        starts, through = self.member_sections().through(rows)
         owners = np.repeat(np.arange(len(rows)), np.diff(starts))
+        holds = parts[through["face"]] == parts[rows][owners]
+        owners, through = owners[holds], through[holds]
         faces, signs, cosines = (through[name] for name in ("face", "sign", "cosine"))
         return cut_loads(self.faces, self.loads, owners, faces, signs, cosines, self.axes[rows])
 
@@ -163,9 +165,9 @@ def test_the_core_judges_whole_sections_as_numpy_does():
     members, count = slab.member_sections(), len(slab.connections)
     rows = np.flatnonzero(members.are_whole(np.arange(count)))
     overloads, holds = slab.overloads(2e6, members), np.ones(count, bool)
-    alone, parts = np.zeros(len(rows)), np.zeros(count, int)
+    alone, parts = np.zeros(len(rows)), (slab.connections.points[:, 1] > 0.0).astype(int)
     used = overloads.together(rows, alone, slab.loads, slab.axes[rows], holds, np.ones(count), parts)
-    loads, areas, second_moments = slab.sections(rows)
+    loads, areas, second_moments = slab.sections_of_parts(rows, parts)
     strength = Strength(1e12, 2e6, 2e6, 2e6, 2e6)
     expected = utilisation(loads, rectangular_sections(areas, second_moments), strength)
     np.testing.assert_allclose(used, expected, rtol=1e-12)
