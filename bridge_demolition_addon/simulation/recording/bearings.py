@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from ...engineering.mechanics.bearing_loads import BearingLoads
-from ...model.results.bearing_extremes import BearingExtremes
+from ...model.results.bearing_extremes import BearingExtreme, BearingExtremes
 from ...model.results.frames import Frame
 from ...model.run_folder.logs import FrameBearings
 from ...scene.connections.bearings import NamedBearings
@@ -37,6 +35,7 @@ class RecordedBearings:
         """Return the part (b,) of the connections of each bearing of which something is true (c,)."""
         return np.bincount(self._bearings, of_connections) / np.bincount(self._bearings)
 
-    def summary(self) -> list[dict[str, Any]]:
-        """Return the extremes of each bearing, ready for JSON."""
-        return self._extremes.summary()
+    @property
+    def extremes(self) -> list[BearingExtreme]:
+        """Extremes of each bearing that was read."""
+        return self._extremes.known()

@@ -15,6 +15,7 @@ from ...bullet.time_control import time_stands_still
 from ...bullet.world import BulletWorld, WorldState
 from ...engineering.core.library import missing_core
 from ...errors import CoreError, LayoutError, NotFiniteError, OutputError, SimulationError
+from ...model.results.bearing_extremes import BearingExtreme
 from ...model.results.frames import BallHistory, ContactHistory, Frame
 from ...model.results.inventory import Inventory
 from ...model.schema import given
@@ -213,9 +214,9 @@ class Recording(RecordedFrames):
         return self._reader.resting_state if self._reader else None
 
     @property
-    def bearings(self) -> list[dict[str, Any]]:
-        """The largest and least that each bearing carried so far, ready for JSON."""
-        return self._bearings.summary() if self._bearings else []
+    def bearings(self) -> list[BearingExtreme]:
+        """The largest and least that each bearing carried so far."""
+        return self._bearings.extremes if self._bearings else []
 
     @property
     def reinforcement(self) -> dict[str, Any] | None:
