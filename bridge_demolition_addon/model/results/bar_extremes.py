@@ -3,12 +3,56 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
 
 from ...engineering.elasticity.crack_state import ALL_RUPTURED, AT_YIELD, FrameCracks
 from .inventory import Inventory
+
+
+@dataclass(frozen=True, slots=True)
+class CrackCounts:
+    """Connections that cracked, how many of them bars held or lost, and the largest use of the rupture strain."""
+
+    cracked: int
+    held_at_end: int
+    yielded: int
+    ruptured_in_part: int
+    ruptured: int
+    largest_use_share: float
+    largest_use_s: float | None
+
+
+@dataclass(frozen=True, slots=True)
+class LargestUse:
+    """Where bars used most of their rupture strain, and when."""
+
+    share: float
+    time_s: float
+    connection: str
+    first_member: str
+    second_member: str
+
+
+@dataclass(frozen=True, slots=True)
+class BarsOfRun:
+    """What bars across cracks did in a run: all of them, and by kind of member."""
+
+    with_bars: int
+    counts: CrackCounts
+    largest_use: LargestUse | None  # None where they used nothing
+    by_kind: Mapping[str, CrackCounts]
+
+    def to_json(self) -> dict[str, Any]:
+        """Return it as a summary has it."""
+        return {
+            "with_bars": self.with_bars,
+            **asdict(self.counts),
+            "largest_use": self.largest_use and asdict(self.largest_use),
+            "by_kind": [{"kind": kind, **asdict(counts)} for kind, counts in self.by_kind.items()],
+        }
 
 
 class BarExtremes:
@@ -32,44 +76,36 @@ class BarExtremes:
         self._use[rows] = np.maximum(self._use[rows], cracks.rupture_shares)
         self._use_s[more] = time_s
 
-    def summary(self) -> dict[str, Any]:
+    def so_far(self) -> BarsOfRun:
         """Return the numbers of connections, the largest use of the rupture strain, and both by kind of member."""
         kinds = self._kinds()
         cracked = self._cracked & self._have_bars
-        return {
-            "with_bars": int(self._have_bars.sum()),
-            **self._of(self._have_bars),
-            "largest_use": self._largest() if (cracked & (self._use > 0.0)).any() else None,
-            "by_kind": [
-                {"kind": str(kind), **self._of(cracked & (kinds == kind))} for kind in np.unique(kinds[cracked])
-            ],
-        }
+        return BarsOfRun(
+            with_bars=int(self._have_bars.sum()),
+            counts=self._of(self._have_bars),
+            largest_use=self._largest() if (cracked & (self._use > 0.0)).any() else None,
+            by_kind={str(kind): self._of(cracked & (kinds == kind)) for kind in np.unique(kinds[cracked])},
+        )
 
-    def _of(self, chosen: np.ndarray) -> dict[str, Any]:
+    def _of(self, chosen: np.ndarray) -> CrackCounts:
         """Return the numbers of some connections (m,), and their largest use with its time."""
         cracked = self._cracked & chosen
         most = int(np.argmax(np.where(cracked, self._use, -1.0))) if cracked.any() else None
-        return {
-            "cracked": int(cracked.sum()),
-            "held_at_end": int((cracked & self._held).sum()),
-            "yielded": int((cracked & (self._yield_shares >= AT_YIELD)).sum()),
-            "ruptured_in_part": int((cracked & (self._ruptured > 0.0) & (self._ruptured < ALL_RUPTURED)).sum()),
-            "ruptured": int((cracked & (self._ruptured >= ALL_RUPTURED)).sum()),
-            "largest_use_share": 0.0 if most is None else float(self._use[most]),
-            "largest_use_s": None if most is None else float(self._use_s[most]),
-        }
+        return CrackCounts(
+            cracked=int(cracked.sum()),
+            held_at_end=int((cracked & self._held).sum()),
+            yielded=int((cracked & (self._yield_shares >= AT_YIELD)).sum()),
+            ruptured_in_part=int((cracked & (self._ruptured > 0.0) & (self._ruptured < ALL_RUPTURED)).sum()),
+            ruptured=int((cracked & (self._ruptured >= ALL_RUPTURED)).sum()),
+            largest_use_share=0.0 if most is None else float(self._use[most]),
+            largest_use_s=None if most is None else float(self._use_s[most]),
+        )
 
-    def _largest(self) -> dict[str, Any]:
-        """Return where bars used most of their rupture strain, and when."""
+    def _largest(self) -> LargestUse:
         inventory, row = self._inventory, int(np.argmax(np.where(self._have_bars, self._use, -1.0)))
         first, second = members_of(inventory, np.array([row]))[0]
-        return {
-            "share": float(self._use[row]),
-            "time_s": float(self._use_s[row]),
-            "connection": str(inventory.connection_names[row]),
-            "first_member": first,
-            "second_member": second,
-        }
+        use, use_s = float(self._use[row]), float(self._use_s[row])
+        return LargestUse(use, use_s, str(inventory.connection_names[row]), first, second)
 
     def _kinds(self) -> np.ndarray:
         """Kinds of members (m,) that the connections are in, or of both where they are between two."""

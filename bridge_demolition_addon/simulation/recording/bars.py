@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from ...engineering.elasticity.crack_state import FrameCracks
-from ...model.results.bar_extremes import BarExtremes, members_of
+from ...model.results.bar_extremes import BarExtremes, BarsOfRun, members_of
 from ...model.results.frames import Frame
 from ...model.results.inventory import Inventory
 
@@ -30,6 +28,6 @@ class RecordedBars:
         members = members_of(self._inventory, at_work.rows)
         return [(str(name), *pair) for name, pair in zip(names, members, strict=True)], at_work
 
-    def summary(self) -> dict[str, Any]:
-        """Return the totals so far, ready for JSON."""
-        return self._extremes.summary()
+    def so_far(self) -> BarsOfRun:
+        """Return what bars did so far."""
+        return self._extremes.so_far()

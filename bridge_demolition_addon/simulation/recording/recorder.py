@@ -15,6 +15,7 @@ from ...bullet.time_control import time_stands_still
 from ...bullet.world import BulletWorld, WorldState
 from ...engineering.core.library import missing_core
 from ...errors import CoreError, LayoutError, NotFiniteError, OutputError, SimulationError
+from ...model.results.bar_extremes import BarsOfRun
 from ...model.results.bearing_extremes import BearingExtreme
 from ...model.results.frames import BallHistory, ContactHistory, Frame
 from ...model.results.inventory import Inventory
@@ -219,9 +220,9 @@ class Recording(RecordedFrames):
         return self._bearings.extremes if self._bearings else []
 
     @property
-    def reinforcement(self) -> dict[str, Any] | None:
-        """What bars across cracks did so far, ready for JSON; None where they are not followed."""
-        return self._bars.summary() if self._bars else None
+    def reinforcement(self) -> BarsOfRun | None:
+        """What bars across cracks did so far; None where they are not followed."""
+        return self._bars.so_far() if self._bars else None
 
     @property
     def only_motion_because(self) -> str:

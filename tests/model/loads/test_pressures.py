@@ -127,7 +127,8 @@ def test_its_mean_in_a_step_is_the_integral_by_the_step():
     values = 1000.0 * np.where(fine < 1.0, 0.0, np.interp(fine, (1.0, 2.0, 4.0), (10.0, -10.0, 2.0)))
     for start_s, step_s in ((0.0, 0.5), (0.5, 1.0), (1.2, 1.0), (1.5, 3.0), (4.5, 0.5)):
         rows = (fine >= start_s - 1e-9) & (fine <= start_s + step_s + 1e-9)
-        mean = np.trapezoid(values[rows], fine[rows]) / step_s
+        within = values[rows]
+        mean = 0.5 * (within[1:] + within[:-1]).mean()
         assert faces.mean_size(start_s, step_s) == pytest.approx(mean, abs=0.2)
 
 
