@@ -66,7 +66,10 @@ UNUSUAL = (
     ),
     ({"charges": (charge(mass_kg=735.0),)}, "735 kg of explosive beside drill holes are 6869 g a tonne of the bridge"),
     ({"cuts": (cut(735.0),)}, "735 kg of explosive beside drill holes are 6869 g a tonne of the bridge, recorded jobs"),
-    ({"neighbours": (Neighbour(name="crane", position_m=(6.5, 0.0, 5.4)),)}, "crane lies in deck, as no neighbour does"),
+    (
+        {"neighbours": (Neighbour(name="crane", position_m=(6.5, 0.0, 5.4)),)},
+        "crane lies in deck, as no neighbour does",
+    ),
     ({"equipment": (machine(2_140_000.0),)}, "crane is 20 times as heavy as the bridge (is it in kg?)"),
 )
 
