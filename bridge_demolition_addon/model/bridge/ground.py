@@ -29,7 +29,7 @@ def foot_m(name: str, x_m: float, y_m: float, top_m: float, ground: GroundHeight
     foot = ground(name, x_m, y_m)
     if foot > max(top_m - _SHORTEST_M, 0.0):  # on level ground the keys say how high a pier has to be
         raise GeometryError(
-            f"The ground is at {foot:.2f} m under {name}, whose top is at {top_m:.2f} m; make the bridge higher, or "
-            "give ground.origin another height."
+            f"The ground is at {foot:.2f} m under {name}, whose top is at {top_m:.2f} m; make the bridge "
+            "higher, or the ground lower there: ground.profile_m, or ground.origin of a file."
         )
     return foot

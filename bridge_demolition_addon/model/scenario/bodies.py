@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import ClassVar
 
 from ...errors import ScenarioError
@@ -69,7 +70,8 @@ class GroundSurface(BodyInContact):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Ground(BodyInContact):
-    """The ground: unyielding, and flat at height 0 or as a file has it. Columns and abutments reach down to it."""
+    """The ground: unyielding, and flat at height 0, by a profile along the road or as a file has it. Columns and
+    abutments reach down to it."""
 
     table: ClassVar[str] = "ground"
     contact: ClassVar[str] = GROUND
@@ -79,6 +81,13 @@ class Ground(BodyInContact):
         "Path of the terrain: a mesh (STL, OBJ, PLY, GLB), an ESRI ASCII grid (ASC), points (XYZ, CSV, TXT), a LandXML "
         "surface (XML), a GeoTIFF (TIF), a point cloud (LAS, LAZ) or a model (IFC). Without it the ground is flat.",
         default=None,
+    )
+    profile_m: tuple[tuple[float, float], ...] | None = key(
+        "Heights along the road in place of a file: x and z of two or more points, in their order along the road, as "
+        "of banks, a valley or a cutting. Between them it is straight, beyond them level, and across the road the same, "
+        "turned with `bridge.skew_deg`.",
+        default=None,
+        **POSITION,
     )
     surface: str | None = key(
         "Name of the surface in a LandXML file that has several, or of the element in an IFC file, with `*` for any "
@@ -126,6 +135,22 @@ class Ground(BodyInContact):
     def _check_together(self) -> None:
         if self.origin is not None and len(self.origin) != _AXES:
             raise self.unexpected("origin", "3 numbers: easting, northing and height")
+        if self.profile_m is not None:
+            self._check_profile(self.profile_m)
+
+    @property
+    def is_flat(self) -> bool:
+        """Whether it is level at height 0 everywhere, but for surfaces on it."""
+        return self.file is None and self.profile_m is None
+
+    def _check_profile(self, points_m: tuple[tuple[float, float], ...]) -> None:
+        if self.file is not None:
+            raise ScenarioError("ground.file and ground.profile_m are given together: expected one of them")
+        if len(points_m) < 2:
+            raise self.unexpected("profile_m", "two points at least, x and z of each")
+        for (before, _), (after, _) in pairwise(points_m):
+            if after <= before:
+                raise self.unexpected("profile_m", f"points in their order along the road; {after:g} follows {before:g}")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -213,7 +213,7 @@ class Scenario(Table):
 
     @property
     def has_flat_ground(self) -> bool:
-        return self.ground.file is None
+        return self.ground.is_flat
 
     def detonation_s(self, delay_s: float) -> float:
         """Return when a charge with a delay detonates, s; infinite where nothing goes off."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
@@ -23,6 +24,9 @@ _LOWEST_M, _HIGHEST_M = -1_000.0, 9_000.0
 """Heights at which bridges are built, and some room: -9999, which often stands for no data, is none."""
 
 _EAST_DEG = 90.0
+
+_FAR_M = 20_000.0
+"""How far a profile goes on beyond its ends and to both sides: farther than any ground that is made of it."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -60,9 +64,13 @@ class Placing:
         return transformed_back(self.turn, np.asarray(positions_m, float)) / self.scale + self.origin[:2]
 
 
+AS_THE_SCENARIO = Placing(np.zeros(3), np.eye(2), 1.0)
+"""The placing of heights that are in the scenario's own coordinates."""
+
+
 @dataclass(frozen=True, eq=False, slots=True)
 class Terrain:
-    """Heights of a file, at positions of a scenario."""
+    """Heights of a file or a profile, at positions of a scenario."""
 
     name: str
     source: Raster | Surface
@@ -95,6 +103,11 @@ class Terrain:
 def terrain_of(scenario: Scenario) -> Terrain | None:
     """Return the terrain of a scenario; None where its ground is flat."""
     ground = scenario.ground
+    if ground.profile_m is not None:
+        shift = scenario.bridge.shift_across if scenario.bridge else 0.0
+        terrain = Terrain("profile along the road", profile_surface(ground.profile_m, shift), AS_THE_SCENARIO)
+        _check_heights(terrain)
+        return terrain
     if ground.file is None:
         return None
     read = _read_once(ground.file, ground, _state_of(ground.file))
@@ -103,6 +116,27 @@ def terrain_of(scenario: Scenario) -> Terrain | None:
     terrain = Terrain(Path(ground.file).name, read.source, Placing.of(scenario, read.unit_m), notes)
     _check_heights(terrain)
     return terrain
+
+
+def profile_surface(points_m: Sequence[tuple[float, float]], shift_across: float) -> Surface:
+    """Return the ground of a profile along the road, level beyond its ends and the same across the road.
+
+    Parameters
+    ----------
+    points_m
+        x and z of its points, in their order.
+    shift_across
+        How far along the road it moves for each metre across it, as skewed axes do.
+    """
+    along, heights = np.array(points_m, dtype=float).T
+    along = np.concatenate(([along[0] - _FAR_M], along, [along[-1] + _FAR_M]))
+    heights = np.concatenate((heights[:1], heights, heights[-1:]))
+    rows = [np.column_stack((along + y * shift_across, np.full(len(along), y), heights)) for y in (-_FAR_M, 0.0, _FAR_M)]
+    count = len(along)
+    first = np.concatenate([row * count + np.arange(count - 1) for row in range(len(rows) - 1)])
+    right, left = first + 1, first + count
+    triangles = np.concatenate([np.column_stack((first, right, left)), np.column_stack((right, left + 1, left))])
+    return Surface(TriangleMesh(np.concatenate(rows), triangles))
 
 
 def surface_mesh(scenario: Scenario, name: str) -> TriangleMesh:

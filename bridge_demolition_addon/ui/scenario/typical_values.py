@@ -89,6 +89,7 @@ TYPICAL: dict[str, Any] = {
     "tendons.eccentricities_m": [0.0, 0.35, 0.0],
     "tendons.area_mm2": 1500.0,
     "tendons.prestress_n_mm2": 1050.0,
+    "ground.profile_m": [[-2.0, 3.0], [4.0, 0.0]],
     "ground.origin": [448250.0, 4607150.0, 262.5],
     "ground.bearing_deg": 90.0,
     "ground.no_data": -9999.0,

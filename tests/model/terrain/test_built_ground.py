@@ -231,3 +231,38 @@ def test_a_gap_elsewhere_is_filled_in_and_told(tmp_path):
     missing = model.ground.facts.filled_in_share * (2 * half) * (2 * half)
     assert (10.0 - 2 * step) * (10.0 - 2 * step) < missing < (10.0 + 2 * step) * (10.0 + 2 * step)
     assert np.isfinite(model.ground.heights_at(np.array([[-20.0, 20.0]]))).all()
+
+
+def test_a_profile_along_the_road_is_the_ground_and_turns_with_skew():
+    """Feet stand at the heights of the drawing: a bank with a slope of 1 in 2 under a span of 13 m."""
+    profile = ((-2.0, 3.0), (4.0, 0.0), (20.0, -1.6))
+    for skew in (0.0, 20.0):
+        shift = np.tan(np.radians(skew))
+        scenario = replace(BRIDGE, bridge=replace(BRIDGE.bridge, skew_deg=skew), ground=Ground(profile_m=profile))
+        model = build_model(scenario)
+        feet = feet_of(model)
+        # The column of axis 1 stands where 2 m of the slope are gone, that of axis 2 on the gentle one.
+        expected = np.where(feet[:, 0] - feet[:, 1] * shift < 6.0, 2.0, -0.9)
+        np.testing.assert_allclose(feet[:, 2], expected, atol=1e-9)
+        far = np.random.default_rng(3).uniform((-45.0, -20.0), (-12.0, 20.0), (50, 2))
+        tolerance = scenario.ground.tolerance_m
+        np.testing.assert_allclose(model.ground.terrain.heights_at(far), 3.0, atol=tolerance)
+        assert model.ground.facts.name == "profile along the road"
+
+
+@pytest.mark.parametrize(
+    ("settings", "reason"),
+    [
+        ({"profile_m": ((0.0, 1.0),)}, "two points at least"),
+        ({"profile_m": ((0.0, 1.0), (0.0, 2.0))}, "in their order along the road; 0 follows 0"),
+        ({"profile_m": ((0.0, 1.0), (9.0, 2.0)), "file": "valley.asc"}, "together: expected one of them"),
+    ],
+)
+def test_profiles_that_are_none_are_refused(settings, reason):
+    with pytest.raises(ScenarioError, match=reason):
+        Ground(**settings)
+
+
+def test_a_bank_above_a_support_is_said_with_its_heights():
+    with pytest.raises(GeometryError, match=r"at 6\.00 m under pier 1 .*, whose top is at 4\.90 m; .*ground\.profile_m"):
+        build_model(replace(BRIDGE, ground=Ground(profile_m=((-1.0, 6.0), (4.0, 6.0), (8.0, 0.0)))))
