@@ -7,7 +7,7 @@ import numpy as np
 from manifold3d import Error, Manifold, Mesh64, OpType
 
 from ...errors import GeometryError
-from ..arithmetic import arctangent
+from ..arithmetic import arctangent, cosine, sine
 from ..arrays import BoolArray, FloatArray, IntArray
 from .mesh import TriangleMesh, joined_meshes
 from .vectors import dot, length
@@ -24,6 +24,8 @@ hold coordinates, it makes 0.06 mm at a kilometre from the origin."""
 
 _PAIRS_PER_BLOCK = 200_000
 """Point-triangle pairs that `contains` looks at in one go; bounds its memory to some tens of megabytes."""
+
+_ROUND_SIDES = 16
 
 _BOX_CORNERS = np.array([[x, y, z] for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)])
 _BOX_QUADS = np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]])
@@ -48,6 +50,31 @@ def sphere(radius_m: float, segments: int) -> TriangleMesh:
 def cylinder(radius_m: float, height_m: float, sides: int) -> TriangleMesh:
     """An upright prism with corners on a circle, which stands on the origin."""
     return from_manifold(Manifold.cylinder(height_m, radius_m, radius_m, sides))
+
+
+def round_column(diameter_m: float, height_m: float, centre_m: Sequence[float]) -> TriangleMesh:
+    """An upright prism of 16 sides with the section of a round column; two pairs of them look along x and y.
+
+    Its second moment of area is that of the circle to 0.02 %.
+    """
+    angles = math.tau / _ROUND_SIDES * (np.arange(_ROUND_SIDES) + 0.5)
+    radius = 0.5 * across_flats_m(diameter_m) / float(cosine(math.pi / _ROUND_SIDES))
+    ring = np.column_stack((radius * cosine(angles), radius * sine(angles)))
+    ends = [np.column_stack((ring, np.full(_ROUND_SIDES, height))) for height in (-0.5 * height_m, 0.5 * height_m)]
+    first = np.arange(_ROUND_SIDES)
+    second, fan = np.roll(first, -1), first[1:-1]
+    sides = [np.column_stack((first, second, second + _ROUND_SIDES))]
+    sides += [np.column_stack((first, second + _ROUND_SIDES, first + _ROUND_SIDES))]
+    lids = [np.column_stack((np.zeros_like(fan), fan + 1, fan)), np.column_stack((np.zeros_like(fan), fan, fan + 1))]
+    triangles = np.concatenate([*sides, lids[0], lids[1] + _ROUND_SIDES])
+    return TriangleMesh(np.concatenate(ends) + np.asarray(centre_m, dtype=float), triangles)
+
+
+def across_flats_m(diameter_m: float) -> float:
+    """Return the distance of opposite sides of the prism that stands for a round column: its area is the circle's."""
+    half_angle = math.pi / _ROUND_SIDES
+    share = math.pi / (_ROUND_SIDES * float(sine(half_angle)) / float(cosine(half_angle)))
+    return diameter_m * math.sqrt(share)
 
 
 def union(solids: Sequence[TriangleMesh]) -> TriangleMesh:

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
+from ...engineering.geometry.arches import across_road
 from ...engineering.geometry.mesh import TriangleMesh
-from ...engineering.geometry.solids import box
+from ...engineering.geometry.solids import box, round_column
 from ..scenario import Bridge
 from ..scenario.bridge_parts import Abutments, PierCaps
 from ..schema import given
@@ -54,8 +57,17 @@ def _piers(bridge: Bridge, axes: np.ndarray, ground: GroundHeight) -> list[Membe
 
 
 def _pier_cap(bridge: Bridge, cap: PierCaps, axis: float) -> TriangleMesh:
-    middle = (axis, 0.0, given(bridge.piers).height_m + cap.height_m / 2.0)
-    return skewed(bridge, box((cap.length_m, cap.width_m, cap.height_m), middle))
+    piers = given(bridge.piers)
+    if cap.end_height_m is None:
+        middle = (axis, 0.0, piers.height_m + cap.height_m / 2.0)
+        return skewed(bridge, box((cap.length_m, cap.width_m, cap.height_m), middle))
+    half, foot, top = 0.5 * cap.width_m, piers.height_m, piers.height_m + cap.height_m
+    level, end = bridge.columns_half_width_m, top - cap.end_height_m
+    outline = [(-level, foot), (level, foot), (half, end), (half, top), (-half, top), (-half, end)]
+    along = across_road(np.array(outline), cap.length_m)
+    # Turned by a right angle: what ran along the road runs across it.
+    turned = along.vertices[:, [1, 0, 2]] * (-1.0, 1.0, 1.0) + (axis, 0.0, 0.0)
+    return skewed(bridge, replace(along, vertices=turned))
 
 
 def _columns(bridge: Bridge, number: int, axis: float, ground: GroundHeight) -> list[Member]:
@@ -67,9 +79,9 @@ def _columns(bridge: Bridge, number: int, axis: float, ground: GroundHeight) -> 
         name = f"pier {number}" if piers.columns == 1 else f"pier {number} column {column + 1}"
         foot = foot_m(name, axis + across * bridge.shift_across, across, piers.height_m, ground)
         size = (piers.column_length_m, piers.column_width_m, piers.height_m - foot)
-        upright = box(size, (axis, across, (piers.height_m + foot) / 2.0))
-        is_wall = piers.kind == "wall"
-        solid = skewed(bridge, upright) if is_wall else turned_with_axis(bridge, upright, axis, across)
-        unskewed = without_shear(bridge) if is_wall else without_turn(bridge)
+        middle = (axis, across, (piers.height_m + foot) / 2.0)
+        upright = round_column(size[0], size[2], middle) if piers.is_round else box(size, middle)
+        solid = skewed(bridge, upright) if piers.is_wall else turned_with_axis(bridge, upright, axis, across)
+        unskewed = without_shear(bridge) if piers.is_wall else without_turn(bridge)
         parts.append(Member(name, "pier", solid, unskewed=unskewed))
     return parts

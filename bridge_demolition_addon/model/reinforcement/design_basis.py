@@ -42,6 +42,9 @@ _MOST_SPACING_M = 0.25
 LEAST = "least area"
 """Reason of bars that no load asks for."""
 
+COLUMN_LINK_M = 0.010
+"""Usual links of columns."""
+
 _LINK_DIAMETERS_M = (0.010, 0.012, 0.014, 0.016, 0.020)
 _LEAST_LINK_SPACING_M = 0.08
 _MOST_LEGS_APART_M = 0.6

@@ -27,7 +27,8 @@ from ..bridge.member import Member
 from ..scenario.bridge_parts import PierCaps, Piers
 from ..schema import given
 from .beam_effects import BeamEffects, beam_effects
-from .design_basis import BarDesign, DesignBasis, Tension
+from .design_basis import COLUMN_LINK_M, BarDesign, DesignBasis, Tension
+from .round_columns import round_column_bars
 from .schedule import ScheduledBars, ScheduledLinks
 from .superstructure import DeckLine, deck_weight_n_m, whole_traffic
 
@@ -38,7 +39,6 @@ _MM2 = 1e6
 _FREE_TOP = 2.0
 """Buckling length of a pier along the road by its height, its top free: EN 1992-1-1:2004, figure 5.7 b."""
 
-_LINK_USUAL_M = 0.010
 _LEGS_APART_M = 0.3
 _COLUMN_SPACING_M = 0.25
 
@@ -114,7 +114,7 @@ def _pier(basis: DesignBasis, name: str, load: SupportLoad) -> Rows:
     axial = [
         PERMANENT_FACTOR * (permanent_n + basis.weight_n(column)) + VARIABLE_FACTOR * traffic_n for column in columns
     ]
-    if piers.kind == "wall":
+    if piers.is_wall:
         yield from _wall(basis, columns[0], piers.column_length_m, piers.column_width_m, "pier", axial[0])
         return
     highest = max(range(len(columns)), key=lambda index: (_height_m(columns[index]), axial[index]))
@@ -122,7 +122,11 @@ def _pier(basis: DesignBasis, name: str, load: SupportLoad) -> Rows:
     size = ColumnSize(piers.column_length_m, piers.column_width_m, _height_m(columns[highest]))
     across = size.height_m if is_frame else _FREE_TOP * size.height_m
     names = [column.name for column in columns]
-    yield from column_bars(basis, names, size, max(axial), (_FREE_TOP * size.height_m, across))
+    buckling = (_FREE_TOP * size.height_m, across)
+    if piers.is_round:
+        yield from round_column_bars(basis, names, size.length_m, size.height_m, max(axial), max(buckling))
+    else:
+        yield from column_bars(basis, names, size, max(axial), buckling)
 
 
 def _height_m(member: Member) -> float:
@@ -185,7 +189,7 @@ def column_bars(
     `buckling_m` are the buckling lengths along and across the road.
     """
     length, width, height_m = size.length_m, size.width_m, size.height_m
-    outside = basis.rule.cover_m + _LINK_USUAL_M
+    outside = basis.rule.cover_m + COLUMN_LINK_M
     diameter, pairs = _bars_of_column(basis, names[0], size, axial_n, buckling_m)
     axis = outside + 0.5 * diameter
     for sides, (required, reason), room in (
@@ -206,7 +210,7 @@ def _bars_of_column(
 ) -> tuple[float, tuple[tuple[float, str], tuple[float, str]]]:
     """Return the diameter of a column's bars, and their areas at both faces along the road and at both across it."""
     length, width = size.length_m, size.width_m
-    outside, section_m2 = basis.rule.cover_m + _LINK_USUAL_M, length * width
+    outside, section_m2 = basis.rule.cover_m + COLUMN_LINK_M, length * width
     least = of_column_m2(axial_n, section_m2, basis.design_yield_pa)
     shares = width / (length + width), length / (length + width)
     for diameter in diameters_from(basis.bar_m):
@@ -244,7 +248,7 @@ def _bars_of_column(
 
 def _column_links(basis: BarDesign, names: Sequence[str], size: ColumnSize, bar_m: float) -> ScheduledLinks:
     length, width, cover = size.length_m, size.width_m, basis.rule.cover_m
-    diameter = max(_LINK_USUAL_M, column_link_bar_m(bar_m))
+    diameter = max(COLUMN_LINK_M, column_link_bar_m(bar_m))
     spacing = np.floor(100.0 * column_link_spacing_m(bar_m, min(length, width)) + 1e-9) / 100.0
     legs = 2 + max(int(np.ceil((width - 2.0 * cover) / _LEGS_APART_M)) - 1, 0)
     area = float(legs * bar_area_m2(diameter) / spacing) * _MM2

@@ -22,7 +22,7 @@ from .arch import Arch
 from .ball import Ball, BallCable, BallHit
 from .bodies import Equipment, Ground, GroundSurface, ShardSettings, Support
 from .bridge import Bridge
-from .bridge_parts import Abutments, BoxGirder, Deck, Girders, PierCaps, Piers
+from .bridge_parts import Abutments, BoxGirder, Deck, Girders, PierCaps, Piers, Voids
 from .connections import ConnectionSettings
 from .connections_between import ConnectionBetween
 from .contacts import ContactSettings, SurfaceValues
@@ -100,5 +100,6 @@ __all__ = [
     "TimeSettings",
     "TrussSpan",
     "Weakening",
+    "Voids",
     "Zone",
 ]

@@ -150,7 +150,9 @@ class Ground(BodyInContact):
             raise self.unexpected("profile_m", "two points at least, x and z of each")
         for (before, _), (after, _) in pairwise(points_m):
             if after <= before:
-                raise self.unexpected("profile_m", f"points in their order along the road; {after:g} follows {before:g}")
+                raise self.unexpected(
+                    "profile_m", f"points in their order along the road; {after:g} follows {before:g}"
+                )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -1,7 +1,7 @@
 """The bridge: its parts, its spans and what it weighs."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import ClassVar
 
 from ...engineering.arithmetic import cosine, sine
@@ -9,7 +9,7 @@ from ..schema import DENSITY, SIZE, Table, given, key
 from .arch import Arch
 from .bearings import BearingOfBridge
 from .bridge_checks import check_bridge
-from .bridge_parts import Abutments, BoxGirder, BridgeBearings, Deck, Girders, PierCaps, Piers
+from .bridge_parts import Abutments, BoxGirder, BridgeBearings, Deck, Girders, PierCaps, Piers, Voids
 from .frame import RigidFrame
 from .reinforcement import BridgeReinforcement
 
@@ -54,6 +54,7 @@ class Bridge(Table):
     deck: Deck
     girders: Girders | None = None
     box_girder: BoxGirder | None = None
+    voids: Voids | None = None
     piers: Piers | None = None
     pier_caps: PierCaps | None = None
     abutments: Abutments | None = None
@@ -61,6 +62,14 @@ class Bridge(Table):
     frame: RigidFrame | None = None
     bearings: BridgeBearings | None = None
     reinforcement: BridgeReinforcement | None = None
+
+    @property
+    def with_cells(self) -> "Bridge":
+        """Return the bridge with the voids of its slab as cells of a box girder, which it is built as."""
+        if self.voids is None:
+            return self
+        slab, cells = self.voids.slab(self.deck), self.voids.cells(self.deck)
+        return replace(self, deck=slab, box_girder=cells, voids=None)
 
     @property
     def bearing_tables(self) -> tuple[BearingOfBridge, ...]:
@@ -124,6 +133,12 @@ class Bridge(Table):
         if self.box_girder:
             return self.box_girder.width_m
         return self.girders.number * self.girder_spacing_m if self.girders else self.deck.width_m
+
+    @property
+    def columns_half_width_m(self) -> float:
+        """Return how far across the road the outer faces of the outermost columns are from its middle."""
+        piers = given(self.piers)
+        return 0.5 * (self.carried_width_m * (1.0 - 1.0 / piers.columns) + piers.column_width_m)
 
     def _check_together(self) -> None:
         check_bridge(self)

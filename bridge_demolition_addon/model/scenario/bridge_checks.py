@@ -93,6 +93,11 @@ def _check_parts(bridge: Bridge) -> None:
 
 
 def _check_superstructure(bridge: Bridge) -> None:
+    if bridge.voids:
+        for name in ("girders", "box_girder", "frame"):
+            if getattr(bridge, name):
+                raise ScenarioError(f"bridge.voids and bridge.{name} are given together: expected at most one")
+        bridge.voids.check_in(bridge.deck)
     if bridge.box_girder and bridge.box_girder.width_m > bridge.deck.width_m * (1.0 + ROUNDING):
         raise bridge.box_girder.unexpected("width_m", f"at most bridge.deck.width_m, {bridge.deck.width_m} (m)")
     if not bridge.girders:
@@ -111,7 +116,8 @@ def _check_superstructure(bridge: Bridge) -> None:
 
 def _column_turn(bridge: Bridge) -> float:
     """Return a column's length along the road over the room it takes there once it is turned."""
-    return float(cosine(math.radians(bridge.skew_deg))) if given(bridge.piers).kind == "columns" else 1.0
+    piers = given(bridge.piers)
+    return 1.0 if piers.is_wall or piers.is_round else float(cosine(math.radians(bridge.skew_deg)))
 
 
 def _check_room_along(bridge: Bridge) -> None:
@@ -150,9 +156,12 @@ def _check_joints(bridge: Bridge) -> None:
 def _check_room_across(bridge: Bridge, piers: Piers) -> None:
     carried = bridge.pier_caps or bridge.box_girder or bridge.deck
     widest = bridge.carried_width_m / piers.columns
-    if piers.kind == "columns" and piers.column_width_m > widest * (1.0 + ROUNDING):
+    if not piers.is_wall and piers.column_width_m > widest * (1.0 + ROUNDING):
         wanted = f"at most {widest:.6g} (m), so that the columns fit into {carried.table}.width_m"
         raise piers.unexpected("column_width_m", wanted)
+    caps = bridge.pier_caps
+    if caps and caps.end_height_m is not None and bridge.columns_half_width_m >= 0.5 * caps.width_m * (1.0 - ROUNDING):
+        raise caps.unexpected("end_height_m", "none where the columns reach to the ends of bridge.pier_caps.width_m")
     if bridge.girders and not bridge.pier_caps:
         _check_columns_under_girders(bridge, piers, bridge.girders, widest)
 

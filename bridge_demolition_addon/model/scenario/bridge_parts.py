@@ -1,6 +1,7 @@
 """The parts of a bridge: deck, girders, piers, abutments and bearings."""
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, replace
 from typing import ClassVar
 
 from ..schema import DENSITY, FARTHEST_M, ROUNDING, SIZE, Table, key
@@ -84,6 +85,53 @@ class BoxGirder(Table):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Voids(Table):
+    """Voids of a slab: equal tubes along all of it, at half its thickness and spread evenly across the road. Each is
+    built as a square one of the same area."""
+
+    table: ClassVar[str] = "bridge.voids"
+
+    number: int = key("How many.", at_least=1, at_most=100)
+    diameter_m: float = key("Diameter of a tube.", **SIZE)
+
+    @property
+    def side_m(self) -> float:
+        """Return the side of a square with the area of a tube: with it the slab's stiffness is right to 1 %."""
+        return 0.5 * math.sqrt(math.pi) * self.diameter_m
+
+    def slab(self, deck: Deck) -> Deck:
+        """Return the part of a deck above its voids."""
+        return replace(deck, thickness_m=0.5 * (deck.thickness_m - self.side_m))
+
+    def cells(self, deck: Deck) -> BoxGirder:
+        """Return the rest of a deck, webs between the voids and the part below them."""
+        above = 0.5 * (deck.thickness_m - self.side_m)
+        web = (deck.width_m - self.number * self.side_m) / (self.number + 1)
+        return BoxGirder(
+            width_m=deck.width_m,
+            depth_m=deck.thickness_m - above,
+            web_thickness_m=web,
+            bottom_thickness_m=above,
+            cells=self.number,
+        )
+
+    def check_in(self, deck: Deck) -> None:
+        """Check that the tubes have room in a deck.
+
+        Raises
+        ------
+        ScenarioError
+            They come out of it, or cut each other.
+        """
+        if self.diameter_m >= deck.thickness_m * (1.0 - ROUNDING):
+            raise self.unexpected("diameter_m", f"less than bridge.deck.thickness_m, {deck.thickness_m:g} (m)")
+        if self.number * self.diameter_m >= deck.width_m * (1.0 - ROUNDING):
+            over_all = f"{self.number} tubes of {self.diameter_m:g} m take {self.number * self.diameter_m:g} m"
+            room = f"bridge.deck.width_m, {deck.width_m:g} (m)"
+            raise self.unexpected("number", f"tubes that leave concrete between them in {room}; {over_all}")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Piers(Table):
     """The piers: one under each end of each span, on the ground, of equal columns or a wall. Abutments take the place
     of the first and the last pier; a bridge of one span between abutments has none."""
@@ -91,9 +139,10 @@ class Piers(Table):
     table: ClassVar[str] = "bridge.piers"
 
     kind: str = key(
-        "Columns, or one wall across the road. The keys of a column give the size of the wall.",
+        "Columns of rectangular section, round ones, or one wall across the road. The keys of a column give the size "
+        "of the wall; both sizes of a round one are its diameter.",
         default="columns",
-        choices=("columns", "wall"),
+        choices=("columns", "round columns", "wall"),
     )
     columns: int = key("Columns of one pier, spread evenly across the road.", default=1, at_least=1, at_most=1000)
     column_length_m: float = key("Size of a column along the road.", **SIZE)
@@ -103,9 +152,21 @@ class Piers(Table):
     )
     density_kg_m3: float | None = key(_OWN_DENSITY.format("the piers"), **DENSITY)
 
+    @property
+    def is_wall(self) -> bool:
+        """Whether each is one wall, which skew shears, and not columns, which it turns."""
+        return self.kind == "wall"
+
+    @property
+    def is_round(self) -> bool:
+        return self.kind == "round columns"
+
     def _check_together(self) -> None:
-        if self.kind == "wall" and self.columns != 1:
+        if self.is_wall and self.columns != 1:
             raise self.unexpected("columns", '1 with bridge.piers.kind "wall"')
+        if self.is_round and abs(self.column_width_m - self.column_length_m) > ROUNDING * self.column_length_m:
+            same = f"{self.column_length_m:g} (m) as bridge.piers.column_length_m"
+            raise self.unexpected("column_width_m", f"{same}: both are the diameter of round columns")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -117,7 +178,17 @@ class PierCaps(Table):
     length_m: float = key("Size along the road.", **SIZE)
     width_m: float = key("Size across the road.", **SIZE)
     height_m: float = key("Height of the beam.", **SIZE)
+    end_height_m: float | None = key(
+        "Height at either end across the road of a hammerhead, whose underside rises from the outer faces of the "
+        "outermost columns; by default the beam is as high everywhere.",
+        default=None,
+        **SIZE,
+    )
     density_kg_m3: float | None = key(_OWN_DENSITY.format("the pier caps"), **DENSITY)
+
+    def _check_together(self) -> None:
+        if self.end_height_m is not None and self.end_height_m > self.height_m * (1.0 + ROUNDING):
+            raise self.unexpected("end_height_m", f"at most bridge.pier_caps.height_m, {self.height_m:g} (m)")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

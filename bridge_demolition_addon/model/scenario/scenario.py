@@ -168,10 +168,14 @@ class Scenario(Table):
 
     @property
     def weighed_bridge(self) -> Bridge | None:
-        """Return the bridge with the density of its material, where it gives neither a density nor its mass."""
-        if self.bridge is None or self.bridge.density_kg_m3 is not None or self.bridge.mass_kg is not None:
-            return self.bridge
-        return replace(self.bridge, density_kg_m3=self._material_density_kg_m3)
+        """Return the bridge as it is built: with the density of its material, where it gives neither a density nor its
+        mass, and with voids as cells."""
+        if self.bridge is None:
+            return None
+        bridge = self.bridge.with_cells
+        if bridge.density_kg_m3 is not None or bridge.mass_kg is not None:
+            return bridge
+        return replace(bridge, density_kg_m3=self._material_density_kg_m3)
 
     @property
     def _material_density_kg_m3(self) -> float | None:

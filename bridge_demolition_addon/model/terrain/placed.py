@@ -131,7 +131,9 @@ def profile_surface(points_m: Sequence[tuple[float, float]], shift_across: float
     along, heights = np.array(points_m, dtype=float).T
     along = np.concatenate(([along[0] - _FAR_M], along, [along[-1] + _FAR_M]))
     heights = np.concatenate((heights[:1], heights, heights[-1:]))
-    rows = [np.column_stack((along + y * shift_across, np.full(len(along), y), heights)) for y in (-_FAR_M, 0.0, _FAR_M)]
+    rows = [
+        np.column_stack((along + y * shift_across, np.full(len(along), y), heights)) for y in (-_FAR_M, 0.0, _FAR_M)
+    ]
     count = len(along)
     first = np.concatenate([row * count + np.arange(count - 1) for row in range(len(rows) - 1)])
     right, left = first + 1, first + count

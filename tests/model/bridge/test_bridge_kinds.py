@@ -28,6 +28,7 @@ from bridge_demolition_addon.model.scenario import (
     Piers,
     Scenario,
     TimeSettings,
+    Voids,
 )
 from bridge_demolition_addon.model.structure.model import build_model
 
@@ -40,6 +41,7 @@ VOLUME = 1e-9
 
 DECK = Deck(width_m=10, thickness_m=0.25, overhang_m=0.5)
 PIERS = Piers(columns=3, column_length_m=0.8, column_width_m=0.6, height_m=5)
+ROUND = {"column_length_m": 1.1, "column_width_m": 1.1, "height_m": 5}
 CAPS = PierCaps(length_m=1.2, width_m=9, height_m=0.8)
 ABUTMENTS = Abutments(length_m=1.5, width_m=10)
 GIRDERS = Girders(number=4, width_m=0.4, depth_m=1.1)
@@ -55,6 +57,9 @@ BRIDGES = {
     "box": replace(SLAB, box_girder=BOX),
     "box of three cells": replace(SLAB, box_girder=replace(BOX, cells=3)),
     "walls": replace(SLAB, piers=Piers(kind="wall", column_length_m=0.9, column_width_m=8, height_m=5), pier_caps=None),
+    "round columns": replace(SLAB, piers=Piers(kind="round columns", columns=3, **ROUND)),
+    "hammerheads": replace(SLAB, piers=replace(PIERS, columns=1), pier_caps=replace(CAPS, end_height_m=0.3)),
+    "voids": replace(SLAB, deck=replace(DECK, thickness_m=0.9), voids=Voids(number=7, diameter_m=0.6)),
     "decks that touch": replace(SLAB, deck=replace(DECK, per_span=True)),
     "decks apart": replace(SLAB, deck=replace(DECK, per_span=True, joint_gap_m=0.05), girders=GIRDERS),
     "abutments": replace(SLAB, abutments=ABUTMENTS),
@@ -89,6 +94,10 @@ def by_hand(name):
         "box of three cells": slab
         | {"deck": LENGTH * (10 * 0.25 + 5.5 * 1.6 - 3 * ((5.5 - 4 * 0.35) / 3) * (1.6 - 0.2))},
         "walls": {"deck": slab["deck"], "pier": 4 * 0.9 * 8 * 5},
+        "round columns": slab | {"pier": 4 * 3 * math.pi * 1.1**2 / 4 * 5},
+        # From the face of the one column, 0.3 m from the middle, to the end at 4.5 m the underside rises by 0.5 m.
+        "hammerheads": slab | {"pier": columns / 3, "pier cap": caps - 4 * 1.2 * (4.5 - 0.3) * 0.5},
+        "voids": slab | {"deck": LENGTH * (10 * 0.9 - 7 * math.pi * 0.6**2 / 4)},
         "decks that touch": slab,
         "decks apart": {
             "deck": (LENGTH - 0.1) * 2.5,
@@ -124,7 +133,9 @@ def test_one_solid_of_all_members_has_their_volume_and_is_one_body(name):
     assert len(bodies(to_manifold(merged[0].solid))) == 1
 
 
-@pytest.mark.parametrize("name", ["box", "box of three cells, skewed", "girders on columns, skewed", "decks apart"])
+@pytest.mark.parametrize(
+    "name", ["box", "voids, skewed", "hammerheads, skewed", "girders on columns, skewed", "decks apart"]
+)
 def test_shards_of_a_bridge_of_any_kind_add_up_and_hold_together(name):
     model = build_model(scenario_of(BRIDGES[name]))
     assert model.masses_kg.sum() == pytest.approx(sum(member.mass_kg for member in model.members), rel=VOLUME)

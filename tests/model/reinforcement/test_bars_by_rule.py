@@ -2,6 +2,7 @@
 """Bars by a rule: what decks, caps, columns and walls get, against moments, forces and sums by hand."""
 
 import math
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -254,6 +255,49 @@ def test_columns_have_bars_at_all_sides_and_links():
     assert total >= 0.002 * 0.7 * 0.7  # EN 1992-1-1, 9.5.2 (2)
     assert rows[0][0].layer.area_m2 == rows[1][0].layer.area_m2
     assert links(schedule, "pier 1 column 1").spacing_m == pytest.approx(0.4)  # 20 Ø = 0.4 m
+
+
+ROUND = Piers(kind="round columns", columns=2, column_length_m=0.9, column_width_m=0.9, height_m=6.0)
+
+
+def test_a_round_column_has_a_ring_of_bars_as_stiff_as_its_layers():
+    """Four layers, each spread over its chord of the circle, have the second moment of the bars one by one."""
+    rule = BridgeReinforcement(designed_for="LM1")
+    schedule = scheduled(bridge(rule, piers=ROUND))
+    rows = [row for side in ("start", "end", "right", "left") for row in layer(schedule, "pier 1 column 1", side, "z")]
+    choice, area = rows[0].choice, rows[0].layer.area_m2
+    radius = 0.45 - rule.cover_m - 0.010 - choice.diameter_m / 2
+    angles = 2 * math.pi / (4 * choice.number) * (np.arange(4 * choice.number) + 0.3)
+    one_by_one = choice.area_m2 / choice.number * float(np.sum((radius * np.sin(angles)) ** 2))
+    # The polygon that stands for the circle has its area: π D² / 4 = 16 a² tan(π / 16).
+    half_flats = math.sqrt(math.pi * 0.9**2 / 4 / (16 * math.tan(math.pi / 16)))
+    distance = half_flats - rows[0].layer.depth_m
+    chord = np.linspace(-1, 1, 2001) * math.sqrt(0.45**2 - distance**2)
+    assert 2 * area * distance**2 + 2 * area * np.mean(chord**2) == pytest.approx(one_by_one, rel=2e-3)
+    assert {row.layer.area_mm2 for row in rows} == {rows[0].layer.area_mm2} and 4 * choice.number >= 8
+    assert links(schedule, "pier 1 column 1").legs == 2
+
+
+def test_a_slender_round_column_has_bars_as_a_fibre_section_needs():
+    """N and M of the design against the resistance of the circle by strips and its bars one by one, to 10 %: a square
+    of the same area stands for it in the design."""
+    schedule = scheduled(bridge(piers=replace(ROUND, columns=1, column_length_m=0.6, column_width_m=0.6, height_m=11)))
+    (row,) = layer(schedule, "pier 1", "start", "z")
+    axial, moment = (1e3 * float(number) for number in re.findall(r"= (\d+) kN", row.reason))
+    radius = 0.3 - BridgeReinforcement(designed_for="LM1").cover_m - 0.010 - row.choice.diameter_m / 2
+    number = max(8, 4 * row.choice.number)
+    place = radius * np.cos(2 * math.pi / number * (np.arange(number) + 0.5))
+    strips = np.linspace(-0.3, 0.3, 1200)
+    widths = 2 * np.sqrt(np.maximum(0.09 - strips**2, 0.0)) * 0.6 / 1200
+
+    def resisted(neutral):
+        pressed = strips > 0.3 - 0.8 * neutral
+        stress = np.clip(200e9 * 0.0035 * (place - 0.3 + neutral) / neutral, -F_YD, F_YD)
+        force = stress * row.required_m2 * 4 / number
+        return F_CD * widths[pressed].sum() + force.sum(), F_CD * (widths * strips)[pressed].sum() + force @ place
+
+    neutral = min(np.linspace(0.02, 2.0, 4000), key=lambda depth: abs(resisted(depth)[0] - axial))
+    assert resisted(neutral)[1] == pytest.approx(moment, rel=0.1)
 
 
 def test_a_slender_column_has_more_bars_than_a_stocky_one():

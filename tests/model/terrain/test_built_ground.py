@@ -264,5 +264,7 @@ def test_profiles_that_are_none_are_refused(settings, reason):
 
 
 def test_a_bank_above_a_support_is_said_with_its_heights():
-    with pytest.raises(GeometryError, match=r"at 6\.00 m under pier 1 .*, whose top is at 4\.90 m; .*ground\.profile_m"):
+    with pytest.raises(
+        GeometryError, match=r"at 6\.00 m under pier 1 .*, whose top is at 4\.90 m; .*ground\.profile_m"
+    ):
         build_model(replace(BRIDGE, ground=Ground(profile_m=((-1.0, 6.0), (4.0, 6.0), (8.0, 0.0)))))
