@@ -99,7 +99,7 @@ __all__ = [
     "TendonCut",
     "TimeSettings",
     "TrussSpan",
-    "Weakening",
     "Voids",
+    "Weakening",
     "Zone",
 ]

@@ -84,8 +84,8 @@ class Ground(BodyInContact):
     )
     profile_m: tuple[tuple[float, float], ...] | None = key(
         "Heights along the road in place of a file: x and z of two or more points, in their order along the road, as "
-        "of banks, a valley or a cutting. Between them it is straight, beyond them level, and across the road the same, "
-        "turned with `bridge.skew_deg`.",
+        "of banks, a valley or a cutting. Between them it is straight, beyond them level, and across the road the "
+        "same, turned with `bridge.skew_deg`.",
         default=None,
         **POSITION,
     )
