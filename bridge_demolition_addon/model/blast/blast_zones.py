@@ -3,7 +3,8 @@
 import math
 import zlib
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from fnmatch import fnmatchcase
 from itertools import pairwise
 from typing import ClassVar, Self
 
@@ -68,7 +69,10 @@ class BlastZone(PlannedAction):
     noun: ClassVar[str] = "blast zone"
 
     name: str | None = key("What it is called in plans; by default Zone and its number.", default=None)
-    member: str = key("The member, by a name that `bda check` lists.")
+    member: str = key(
+        "The member, by a name that `bda check` lists; with `*` for any letters, or `[2-4]` for one of some, all "
+        "columns or legs of such names have this zone, as `pier [2-4] column *`."
+    )
     along: str = key(
         "Axis of the bridge that the member runs along, and so the zone's height and the rows of its holes.",
         default="z",
@@ -100,6 +104,20 @@ class BlastZone(PlannedAction):
     )
     row_delay_ms: float = key(
         "Time from each row to the next. The zone stops carrying with its last row.",
+        default=0.0,
+        unit="ms",
+        at_least=0,
+        at_most=1e6,
+    )
+    axis_delay_ms: float = key(
+        "With several members, time from those of each axis to those of the next, in their order along the road.",
+        default=0.0,
+        unit="ms",
+        at_least=0,
+        at_most=1e6,
+    )
+    column_delay_ms: float = key(
+        "With several members, time from each column of an axis to the next, in the order of their numbers.",
         default=0.0,
         unit="ms",
         at_least=0,
@@ -151,6 +169,36 @@ class BlastZone(PlannedAction):
         at_most=100_000,
     )
     bar_diameter_mm: float | None = key("Diameter of these bars.", default=None, unit="mm", above=0, at_most=100)
+
+    @property
+    def has_pattern(self) -> bool:
+        """Whether its member stands for several."""
+        return any(letter in self.member for letter in "*?[")
+
+    def repeated(self, axes: Sequence[Sequence[str]]) -> tuple[Self, ...]:
+        """Return the zones of all members that it stands for, one of each.
+
+        Parameters
+        ----------
+        axes
+            Names of the columns, walls or legs of each axis of the bridge.
+
+        Raises
+        ------
+        ScenarioError
+            No member has such a name.
+        """
+        found = [[name for name in names if fnmatchcase(name, self.member)] for names in axes]
+        zones: list[Self] = []
+        for axis, columns in enumerate(row for row in found if row):
+            for number, name in enumerate(columns):
+                delay_ms = self.delay_ms + axis * self.axis_delay_ms + number * self.column_delay_ms
+                own = {"name": f"{self.name}, {name}", "member": name, "delay_ms": delay_ms}
+                zones.append(replace(self, **own, axis_delay_ms=0.0, column_delay_ms=0.0))
+        if not zones:
+            known = ", ".join(name for names in axes for name in names) or "none"
+            raise self.unexpected("member", f"names of columns, walls or legs of the bridge with *; it has {known}")
+        return tuple(zones)
 
     @property
     def holes(self) -> int:
@@ -261,6 +309,9 @@ class BlastZone(PlannedAction):
         if AXES[SIDES[self.side][0]] == self.along:
             beside = ", ".join(name for name, (axis, _) in SIDES.items() if AXES[axis] != self.along)
             raise self.unexpected("side", f"one beside a member along {self.along}: {beside}")
+        if not self.has_pattern and (self.axis_delay_ms or self.column_delay_ms):
+            name = "axis_delay_ms" if self.axis_delay_ms else "column_delay_ms"
+            raise self.unexpected(name, f"0 with one member, {shown(self.member)}: it needs several, by * in its name")
         if self.bars and self.bar_diameter_mm is None:
             raise self.unexpected("bar_diameter_mm", f"it with blast_zones.bars, {self.bars}")
         if self.break_kg_m3 is not None and not self.break_kg_m3 < self.throw_kg_m3:

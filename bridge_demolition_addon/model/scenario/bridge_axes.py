@@ -33,6 +33,22 @@ def leg_axes_m(bridge: Bridge) -> list[float]:
     return axes_m(bridge)[1:-1] if bridge.abutments else axes_m(bridge)
 
 
+def upright_names(bridge: Bridge) -> list[list[str]]:
+    """Return the names of the columns, walls or legs of each axis between the abutments, in their order."""
+    if bridge.frame:
+        count, kind, beside = len(leg_axes_m(bridge)), "leg", "."
+        each = bridge.frame.legs
+    elif bridge.piers:
+        count, kind, beside = len(axes_m(bridge)) - (2 if bridge.abutments else 0), "pier", " column "
+        each = bridge.piers.columns
+    else:
+        return []
+    return [
+        [f"{kind} {axis}"] if each == 1 else [f"{kind} {axis}{beside}{number}" for number in range(1, each + 1)]
+        for axis in range(1, count + 1)
+    ]
+
+
 def axes_on_arch_m(bridge: Bridge) -> list[float]:
     """Return the positions along the road of the piers that stand on the arch."""
     arch, axes = given(bridge.arch), axes_m(bridge)

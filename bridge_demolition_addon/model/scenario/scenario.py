@@ -38,6 +38,7 @@ from ..schema import (
     check_exactly_one,
     given,
     key,
+    named_tables,
     shown,
     subtable_class,
     subtable_fields,
@@ -46,6 +47,7 @@ from .ball import Ball
 from .bearings import Bearing
 from .bodies import Equipment, Ground, ShardSettings, Support
 from .bridge import Bridge
+from .bridge_axes import upright_names
 from .connection_joints import joints_of_connections
 from .connections import ConnectionSettings
 from .contacts import BodyInContact, ContactSettings, SurfaceValues, check_not_both, with_own_values
@@ -250,11 +252,20 @@ class Scenario(Table):
         return tuple(chain.from_iterable(action.changes(self) for action in self.actions))
 
     def resolved(self) -> dict[str, Any]:
-        """Return connections with strength and stiffness, the time that these need, and how bodies touch."""
+        """Return connections with strength and stiffness, the time that these need, each zone, and how bodies touch."""
         connections = self.connections.with_strength(self.fracture.shards).with_stiffness(self.materials)
         has_bars = bool(self.is_reinforced or self.steelwork or self.tendons)
         time = self.time.completed(is_elastic=connections.is_elastic, has_bars=has_bars)
-        return {"connections": connections, "time": time, **self._resolved_contacts()}
+        zones = {"blast_zones": self._each_zone()} if any(zone.has_pattern for zone in self.blast_zones) else {}
+        return {"connections": connections, "time": time, **zones, **self._resolved_contacts()}
+
+    def _each_zone(self) -> tuple[BlastZone, ...]:
+        """Return all blast zones, one for each of the members that the name of one stands for."""
+        own = dict.fromkeys(table.name for table in self.geometry)
+        axes = [*(upright_names(self.bridge) if self.bridge else ()), *([name] for name in own)]
+        patterns = (zone.has_pattern and zone.member not in own for zone in self.blast_zones)
+        pairs = zip(self.blast_zones, patterns, strict=True)
+        return tuple(chain.from_iterable(zone.repeated(axes) if is_one else (zone,) for zone, is_one in pairs))
 
     def _resolved_contacts(self) -> dict[str, Any]:
         """Use pairs of surfaces, or values per body if any body sets its own."""
@@ -276,6 +287,7 @@ class Scenario(Table):
         }
 
     def _check_together(self) -> None:
+        named_tables(self)  # zones of several members have names of their own
         check_zones_apart(self.blast_zones)
         check_cuts(self.cuts, self.blast_zones)
         self._check_slow_motion()

@@ -14,7 +14,7 @@ from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.blast.blast_zones import length_of_charge_m
 from bridge_demolition_addon.model.bridge.preparation import prepared_members
 from bridge_demolition_addon.model.scenario import BlastZone
-from bridge_demolition_addon.model.scenario.file import read_scenario, scenario_text
+from bridge_demolition_addon.model.scenario.file import read_scenario, scenario_from_text, scenario_text
 from bridge_demolition_addon.model.structure.blast_zones import placed_zone
 
 
@@ -109,3 +109,81 @@ def test_zones_in_steel_are_refused():
     for member in [member.name for member in members if member.steel is not None]:
         with pytest.raises(ScenarioError, match="holes are drilled in; one of steel is severed"):
             placed_zone(replace(ZONE, member=member), members)
+
+
+ROWS_OF_COLUMNS = """
+[scenario]
+title = "Three piers of three columns"
+[time]
+duration_s = 5.0
+[bridge]
+span_lengths_m = [12.0, 14.0, 14.0, 12.0]
+density_kg_m3 = 2500
+deck = { width_m = 9.0, thickness_m = 0.6 }
+piers = { columns = 3, column_length_m = 1.0, column_width_m = 1.0, height_m = 8.0 }
+abutments = { length_m = 1.5, width_m = 9.0 }
+[fracture]
+shards = 60
+[connections]
+material = "concrete"
+method = "face"
+type = "FIXED"
+stiffness = "elastic"
+[blast]
+start_s = 0.5
+[[blast_zones]]
+name = "P"
+member = "pier * column *"
+middle_m = 2.2
+height_m = 3.0
+rows = 2
+holes_a_row = 11
+spacing_m = 0.27
+depth_m = 0.8
+stemming_m = 0.4
+charge_g = 300.0
+delay_ms = 250.0
+axis_delay_ms = 100.0
+column_delay_ms = 25.0
+"""
+
+
+def test_one_zone_stands_for_all_columns_of_its_names_with_delays_by_axis_and_column():
+    zones = scenario_from_text(ROWS_OF_COLUMNS).blast_zones
+    assert [(zone.name, zone.member, zone.delay_ms) for zone in zones] == [
+        (
+            f"P, pier {pier} column {column}",
+            f"pier {pier} column {column}",
+            250.0 + 100 * (pier - 1) + 25 * (column - 1),
+        )
+        for pier in (1, 2, 3)
+        for column in (1, 2, 3)
+    ]
+    assert sum(zone.mass_kg for zone in zones) == pytest.approx(9 * 22 * 0.3)
+    inner = scenario_from_text(ROWS_OF_COLUMNS.replace("pier *", "pier [13]").replace("column *", "column [2-3]"))
+    assert [(zone.member, zone.delay_ms) for zone in inner.blast_zones] == [
+        ("pier 1 column 2", 250.0),
+        ("pier 1 column 3", 275.0),
+        ("pier 3 column 2", 350.0),
+        ("pier 3 column 3", 375.0),
+    ]
+
+
+def test_zones_of_several_members_are_written_one_by_one_and_read_again():
+    scenario = scenario_from_text(ROWS_OF_COLUMNS)
+    assert scenario_from_text(scenario_text(scenario)) == scenario
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "text"),
+    [
+        ("pier * column *", "pier 9 column *", "names of columns, walls or legs of the bridge with .*; it has pier 1"),
+        ("pier * column *", "pier 1 column 1", 'axis_delay_ms is 100.0: expected 0 with one member, "pier 1 column 1"'),
+        ("[blast]", '[[blast_zones]]\n{0}\nname = "P, pier 1 column 2"\nmember = "deck"\n[blast]', "have one name"),
+    ],
+)
+def test_patterns_that_fit_nothing_or_meet_other_zones_are_refused(old, new, text):
+    sizes = {"middle_m": 5.0, "height_m": 1.0, "holes_a_row": 2, "depth_m": 0.4, "stemming_m": 0.2, "charge_g": 20}
+    more = "\n".join(["along = 'x'", "side = 'top'", *(f"{name} = {value}" for name, value in sizes.items())])
+    with pytest.raises(ScenarioError, match=text):
+        scenario_from_text(ROWS_OF_COLUMNS.replace(old, new.format(more)))
