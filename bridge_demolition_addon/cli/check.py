@@ -24,6 +24,7 @@ from ..model.stages.standing import made_elastic
 from ..model.structure.bearing_ranges import LEAST_CUTS, MOST_CUTS, bearing_ranges
 from ..model.structure.blast_zones import placed_zones, zone_totals
 from ..model.structure.cracking import RestingModel
+from ..model.structure.dead_loads import dead_load_facts
 from ..model.structure.facts import (
     accuracy_facts,
     connection_facts,
@@ -122,7 +123,8 @@ def scenario_facts(scenario: Scenario, *, stand: bool = False, progress: Progres
     stability = stability_of(scenario, model, with_factor=stand or None, resting=resting)
     progress.stage("works out what follows for the run")
     yield from _section("Does it stand?", stability.facts())
-    yield from _section("Masses", mass_facts(prepared.members))
+    lying = dead_load_facts(scenario.dead_loads, prepared.members)
+    yield from _section("Masses", (*mass_facts(prepared.members), *lying))
     if stand and model.stiffness is None:
         resting = RestingModel(checked_model(as_elastic, prepared.members), scenario.joints)
     is_elastic = resting.model.stiffness is not None

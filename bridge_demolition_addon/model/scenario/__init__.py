@@ -26,6 +26,7 @@ from .bridge_parts import Abutments, BoxGirder, Deck, Girders, PierCaps, Piers, 
 from .connections import ConnectionSettings
 from .connections_between import ConnectionBetween
 from .contacts import ContactSettings, SurfaceValues
+from .dead_loads import DeadLoad
 from .fracture import Finer, FracturePoint, FractureSettings, MemberFracture
 from .frame import RigidFrame
 from .geometry import Geometry
@@ -58,6 +59,7 @@ __all__ = [
     "ConnectionBetween",
     "ConnectionSettings",
     "ContactSettings",
+    "DeadLoad",
     "Deck",
     "Equipment",
     "Exclusion",

@@ -51,6 +51,7 @@ from .bridge_axes import upright_names
 from .connection_joints import joints_of_connections
 from .connections import ConnectionSettings
 from .contacts import BodyInContact, ContactSettings, SurfaceValues, check_not_both, with_own_values
+from .dead_loads import DeadLoad
 from .fracture import FractureSettings
 from .geometry import Geometry
 from .girders import DECK_KIND, GirderSpan, StudRow, joints_of_deck
@@ -101,6 +102,7 @@ class Scenario(Table):
     tendons: tuple[Tendon, ...] = ()
     connections: ConnectionSettings
     bearings: tuple[Bearing, ...] = ()
+    dead_loads: tuple[DeadLoad, ...] = ()
     supports: tuple[Support, ...] = ()
     foundations: tuple[Foundation, ...] = ()
     shards: ShardSettings = field(default_factory=ShardSettings)
@@ -321,7 +323,15 @@ class Scenario(Table):
                 f"geometry {shown(moving[0])} begins with a velocity or an angular velocity: "
                 "expected shards.start_deactivated = false, or it would begin at rest"
             )
+        self._check_dead_loads()
         self._check_foundations()
+
+    def _check_dead_loads(self) -> None:
+        """Check that what is taken off goes before anything else is done, as a run begins without it."""
+        first_s = min((action.begins_s(self) for action in self.actions), default=math.inf)
+        for load in self.dead_loads:
+            if load.until_s is not None and load.until_s > first_s:
+                raise load.unexpected("until_s", f"at most {first_s:g} (s), when the first of the bridge is demolished")
 
     def _check_foundations(self) -> None:
         if not self.foundations:

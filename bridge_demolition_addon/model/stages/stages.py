@@ -16,12 +16,13 @@ from ...errors import ScenarioError
 from ..actions import Fact
 from ..changes.change import Event, schedule
 from ..pulls import Pull
-from ..scenario import Equipment, Scenario
+from ..scenario import DeadLoad, Equipment, Scenario
 from ..schema import given
 from ..sequence.lifts import placed_lifts
 from ..sequence.structures import model_structure
 from ..structure.blast_zones import zone_firings
 from ..structure.cracking import FALLEN_SHARE
+from ..structure.dead_loads import highest_under, lying_load
 from ..structure.model import Model
 from ..structure.section_use import SectionsWithBars
 from .changed_bridge import ChangedBridge, PressedBars
@@ -29,12 +30,10 @@ from .lifted import CraneWork, PartOnHook
 from .reactions import supports_of
 from .standing import MostUsed, Standing, StandingBridge, most_used_of
 
+_TAKEN_OFF = "{} is taken off"
 _BUILT, _MACHINES, _PULLS = "as it was built", "equipment comes or goes", "pull by {}"
 _SLINGS, _LIFTED = "slings of {} take up {:.0%}", "{} is lifted away"
 """Steps without an event."""
-
-_AT_THE_TOP = 0.05
-"""Of the depth of the bridge there, m: shards whose top is that close to the highest one carry what stands on it."""
 
 _GRID = 8
 """Along each side of a footprint: its weight stands on a grid of so many by so many points."""
@@ -101,16 +100,19 @@ def stages_of(
         hanging, on_slings = crane.on_hooks(time_s, changed)
         machines = [machine for machine in scenario.equipment if machine.stands_at(time_s)]
         pulls = [pull for pull in scenario.pulls if pull.start_s <= time_s]
+        lying = [load for load in scenario.dead_loads if load.until_s is not None and time_s < load.until_s]
         loads = (
             equipment_loads(model, machines, changed.removed) + pull_loads(model, pulls, changed.removed) + on_slings
         )
+        loads += dead_loads(model, lying)
         stage = partial(
             Stage,
             time_s=time_s,
             step=_described_step(scenario, time_s, events, model, gone),
             removed=changed.removed,
-            equipment=(*(machine.name for machine in machines), *(pull.name for pull in pulls)),
-            equipment_n=STANDARD_GRAVITY_M_S2 * math.fsum(machine.mass_kg for machine in machines),
+            equipment=tuple(each.name for each in (*machines, *lying, *pulls)),
+            equipment_n=STANDARD_GRAVITY_M_S2 * math.fsum(machine.mass_kg for machine in machines)
+            + STANDARD_GRAVITY_M_S2 * math.fsum(lying_load(load, model.members).mass_kg for load in lying),
             lifts=(*gone, *hanging),
         )
         states.append((before, changed, loads, _among(hanging, model), stage))
@@ -186,7 +188,7 @@ def equipment_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
     for machine in scenario.equipment:
         where = ", ".join(f"{coordinate:g}" for coordinate in machine.position_m)
         yield machine.name, f"{machine.mass_kg / 1000.0:g} t at ({where}) m"
-        beside = sum(_highest_under(point, boxes, none) is None for point in _grid(machine))
+        beside = sum(highest_under(point, boxes, none) is None for point in _grid(machine))
         if beside:
             yield "", f"{beside / _GRID**2:.0%} of what it stands on is beside the bridge: move it"
         if machine.mass_kg < _LEAST_MACHINE_KG:
@@ -212,6 +214,16 @@ def equipment_loads(model: Model, equipment: Sequence[Equipment], removed: np.nd
     return loads
 
 
+def dead_loads(model: Model, lying: Sequence[DeadLoad]) -> np.ndarray:
+    """Return forces and moments (6, n) on the shards by dead loads that are taken off later."""
+    loads, none = np.zeros((6, len(model.shards))), np.zeros(len(model.shards), bool)
+    for load in lying:
+        parts = lying_load(load, model.members)
+        weight_n = STANDARD_GRAVITY_M_S2 * float(parts.masses_kg[0])
+        loads += standing_loads(model, parts.points_m, weight_n, none)[0]
+    return loads
+
+
 def standing_loads(
     model: Model, points: np.ndarray, weight_n: float, removed: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
@@ -222,7 +234,7 @@ def standing_loads(
     loads, beside = np.zeros((6, len(model.shards))), []
     boxes = np.array([shard.bounds for shard in model.shards])
     for point in points:
-        shard = _highest_under(point, boxes, removed)
+        shard = highest_under(point, boxes, removed)
         if shard is None:
             beside.append(point)
             continue
@@ -239,18 +251,6 @@ def _grid(equipment: Equipment) -> np.ndarray:
     length_m, width_m = equipment.footprint_m
     x, y = np.meshgrid(steps * length_m, steps * width_m)
     return np.column_stack((x.ravel(), y.ravel())) + np.array(equipment.position_m)
-
-
-def _highest_under(point: np.ndarray, boxes: np.ndarray, removed: np.ndarray) -> int | None:
-    """Return the shard whose box (2, 3) is under a point (2,) and highest; of several the nearest on plan."""
-    over = (boxes[:, 0, :2] <= point).all(axis=1) & (point <= boxes[:, 1, :2]).all(axis=1) & ~removed
-    rows = np.flatnonzero(over)
-    if not len(rows):
-        return None
-    tops = boxes[rows, 1, 2]
-    rows = rows[tops >= tops.max() - _AT_THE_TOP]
-    middles = boxes[rows, :, :2].mean(axis=1)
-    return int(rows[np.argmin(np.square(middles - point).sum(axis=1))])
 
 
 def pull_loads(model: Model, pulls: Sequence[Pull], removed: np.ndarray) -> np.ndarray:
@@ -283,6 +283,7 @@ def _steps(scenario: Scenario, events: Sequence[Event], lifts_s: set[float]) -> 
     """Return times at which something changes, from 0 on, and the changes; `lifts_s` are those of lifts."""
     times = {0.0, *(event.time_s for event in events)} | lifts_s
     times |= {pull.start_s for pull in scenario.pulls}
+    times |= {load.until_s for load in scenario.dead_loads if load.until_s is not None}
     for machine in scenario.equipment:
         times |= {machine.from_s} | ({machine.until_s} if machine.until_s is not None else set())
     return [(time_s, [event for event in events if event.time_s == time_s]) for time_s in sorted(times)]
@@ -295,6 +296,7 @@ def _described_step(
     done += [_PULLS.format(pull.name) for pull in scenario.pulls if pull.start_s == time_s]
     done += [_LIFTED.format(part.lift.name) for part in gone]
     done += [_SLINGS.format(lift.name, lift.pretension) for lift in scenario.lifts if lift.from_s == time_s]
+    done += [_TAKEN_OFF.format(load.name) for load in scenario.dead_loads if load.until_s == time_s]
     return ", ".join(done) or (_MACHINES if time_s > 0.0 else _BUILT)
 
 

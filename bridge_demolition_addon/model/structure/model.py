@@ -32,6 +32,7 @@ from ..terrain.built import BuiltGround, built_ground
 from .bearings import Pads
 from .composite_decks import DeckContacts, DecksOnGirders, points_above_girders
 from .connection_source import ConnectionRows, ConnectionSource, CutBridge
+from .dead_loads import added_masses_kg
 from .face_bars import BarRows, MemberBars, ReinforcedFaces
 from .face_connections import FaceConnections
 from .footings import FootingsOnSoil
@@ -164,6 +165,10 @@ def model_on(basis: ModelBasis, members: Sequence[Member] | None = None) -> Mode
     solids = [(member.name, member.solid) for member in members]
     ground = built_ground(scenario, solids, ground_half_size(members, basis.clear_height_m))
     fractured = fractured_members(scenario, members, basis.planes)
+    if scenario.dead_loads:
+        bounds = np.array([shard.bounds for shard in fractured.shards])
+        lying_kg = added_masses_kg(scenario.dead_loads, members, bounds)
+        fractured = replace(fractured, masses_kg=fractured.masses_kg + lying_kg)
     held = held_parts(scenario.supports, members, fractured.shards, fractured.member_of_shard)
     cut = _cut_bridge(scenario, members, fractured, ground, held)
     others = [kind(cut) for kind in SOURCES]
