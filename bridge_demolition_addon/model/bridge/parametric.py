@@ -29,7 +29,7 @@ _SAME_LEVEL_M = 1e-9
 
 def bridge_members(bridge: Bridge, ground: GroundHeight = level_ground) -> tuple[Member, ...]:
     """Return all members, touching without overlap: decks and girders, abutments, arch, piers or legs."""
-    bridge = bridge.with_cells
+    bridge = bridge.lightened
     members = [*superstructure(bridge), *substructure(bridge, ground)]
     if bridge.merge:
         convex = tuple(part for member in members for part in member.parts or (member.solid,))

@@ -64,12 +64,11 @@ class Bridge(Table):
     reinforcement: BridgeReinforcement | None = None
 
     @property
-    def with_cells(self) -> "Bridge":
-        """Return the bridge with the voids of its slab as cells of a box girder, which it is built as."""
-        if self.voids is None:
+    def lightened(self) -> "Bridge":
+        """Return the bridge with the voids of its slab in the density of its deck."""
+        if self.voids is None or self.density_kg_m3 is None:
             return self
-        slab, cells = self.voids.slab(self.deck), self.voids.cells(self.deck)
-        return replace(self, deck=slab, box_girder=cells, voids=None)
+        return replace(self, deck=self.voids.lightened(self.deck, self.density_kg_m3), voids=None)
 
     @property
     def bearing_tables(self) -> tuple[BearingOfBridge, ...]:

@@ -98,6 +98,11 @@ def _check_superstructure(bridge: Bridge) -> None:
             if getattr(bridge, name):
                 raise ScenarioError(f"bridge.voids and bridge.{name} are given together: expected at most one")
         bridge.voids.check_in(bridge.deck)
+        if bridge.mass_kg is not None or bridge.merge:
+            name = "mass_kg" if bridge.mass_kg is not None else "merge"
+            raise ScenarioError(
+                f"bridge.voids and bridge.{name} are given together: expected bridge.density_kg_m3 alone"
+            )
     if bridge.box_girder and bridge.box_girder.width_m > bridge.deck.width_m * (1.0 + ROUNDING):
         raise bridge.box_girder.unexpected("width_m", f"at most bridge.deck.width_m, {bridge.deck.width_m} (m)")
     if not bridge.girders:

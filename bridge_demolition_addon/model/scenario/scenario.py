@@ -173,13 +173,13 @@ class Scenario(Table):
     @property
     def weighed_bridge(self) -> Bridge | None:
         """Return the bridge as it is built: with the density of its material, where it gives neither a density nor its
-        mass, and with voids as cells."""
+        mass, and lighter by its voids."""
         if self.bridge is None:
             return None
-        bridge = self.bridge.with_cells
-        if bridge.density_kg_m3 is not None or bridge.mass_kg is not None:
-            return bridge
-        return replace(bridge, density_kg_m3=self._material_density_kg_m3)
+        bridge = self.bridge
+        if bridge.density_kg_m3 is None and bridge.mass_kg is None:
+            bridge = replace(bridge, density_kg_m3=self._material_density_kg_m3)
+        return bridge.lightened
 
     @property
     def _material_density_kg_m3(self) -> float | None:

@@ -277,21 +277,16 @@ def _stations_m(
     No piece is shorter than half of the depth of the T-beam; where there are more shards, each piece is cut into some.
     """
     found: dict[int, list[float]] = {}
-    bridge = scenario.weighed_bridge
-    if bridge is not None and bridge.box_girder is not None and scenario.connections.is_elastic:
-        for row, member in enumerate(members):
-            if member.kind == "deck" and member.parts and not (rules[row] or len(own_points[row])):
-                found[row] = _stations_of_plates(member, int(counts[row]), [scenario.seed, row])
-    if bridge is None or bridge.girders is None:
+    if scenario.bridge is None or scenario.bridge.girders is None:
         return found
     index_of = {member.name: index for index, member in enumerate(members)}
-    for deck, girders in cast_decks(bridge):
+    for deck, girders in cast_decks(scenario.bridge):
         rows = [index_of[name] for name in (deck, *girders) if name in index_of]
         if len(rows) <= len(girders):
             continue
         along = members[rows[0]].without_skew(members[rows[0]].solid.vertices)[:, 0]
         begin, length = float(along.min()), float(np.ptp(along))
-        shortest = 0.5 * (bridge.girders.depth_m + bridge.deck.thickness_m)
+        shortest = 0.5 * (scenario.bridge.girders.depth_m + scenario.bridge.deck.thickness_m)
         alike = int(counts[rows].sum()) // (2 * len(girders))
         if min(alike, *counts[rows[1:]].tolist()) < 2 or counts[rows[0]] < 2 * len(girders):
             continue
@@ -305,20 +300,6 @@ def _stations_m(
         places = (begin + length * (np.arange(1, pieces) + moved) / max(pieces, 1)).tolist()
         found |= dict.fromkeys(rows, places)
     return found
-
-
-def _stations_of_plates(member: Member, count: int, seed: Sequence[int]) -> list[float]:
-    """Return where all plates of a box girder are cut across together: elsewhere each would hold the others' cuts shut.
-
-    No piece is shorter than half of the depth of the box.
-    """
-    along = member.without_skew(member.solid.vertices)[:, 0]
-    begin, length = float(along.min()), float(np.ptp(along))
-    shortest = 0.5 * float(np.ptp(member.solid.vertices[:, 2]))
-    pieces = max(min(count // len(member.parts), int(length / shortest)), 1)
-    moved = 0.5 * np.random.default_rng(seed).random(pieces - 1) - 0.25
-    places: list[float] = (begin + length * (np.arange(1, pieces) + moved) / pieces).tolist()
-    return places
 
 
 def _across(member: Member, stations_m: Sequence[float]) -> Member:
