@@ -45,6 +45,7 @@ from bridge_demolition_addon.engineering.geometry.hulls import ConvexHulls
 from bridge_demolition_addon.engineering.geometry.vectors import symmetric_eigenvectors
 from bridge_demolition_addon.engineering.mechanics.carried_sections import CarriedSections
 from bridge_demolition_addon.engineering.mechanics.frame_loads import LoadAccumulator, SubstepLoads
+from bridge_demolition_addon.engineering.mechanics.member_sections import MemberSections
 from bridge_demolition_addon.engineering.mechanics.overloads import Overloads
 from bridge_demolition_addon.engineering.mechanics.section_cuts import ConnectedFaces
 from bridge_demolition_addon.engineering.mechanics.strength import MATERIALS
@@ -223,7 +224,13 @@ class Cases:
         judging.breaking(self.flags(count), sections, loads, *places, left)
         rows = self.among(self.count(5), count)
         at_once = sections.loads_at_once(loads, *places)
-        judging.in_cuts(rows, at_once, self.numbers(len(rows), 3, 3), self.flags(count))
+        axes, thicknesses = self.numbers(len(rows), 3, 3), abs(self.numbers(count))
+        judging.in_cuts(rows, at_once, axes, self.flags(count))
+        kinds, centres = rng.integers(0, 2, count), self.numbers(bodies, 3)
+        members = MemberSections(faces, centres, moves, kinds, thicknesses)
+        judging = Overloads(faces, moves, MATERIALS["concrete"], members, **further)
+        flags, alone = self.flags(count), self.numbers(len(rows))
+        judging.together(rows, alone, at_once, axes, flags, left, self.odd(rng.integers(-1, 3, count)))
 
     def of_frame_loads(self):
         bodies, count, substeps, points = 1 + self.count(6), self.count(9), 1 + self.count(3), self.count(5)
@@ -392,9 +399,9 @@ def main():
     seconds, seed, *folder = sys.argv[1:]
     if folder:
         library.FOLDER = Path(folder[0])
-    tried, until = {name: [0, 0] for name in NAMES}, time.monotonic() + float(seconds)
+    tried, until = {name: [0, 0] for name in NAMES}, time.process_time() + float(seconds)
     number = int(seed)
-    while time.monotonic() < until:
+    while time.process_time() < until:
         cases, name = Cases(number), NAMES[number % len(NAMES)]
         print(number, name, flush=True)
         with np.errstate(all="ignore"):

@@ -14,6 +14,7 @@ import numpy as np
 from ...errors import ScenarioError
 from ..arrays import FloatArray, IntArray
 from ..core.calls import call
+from ..core.structs import Doubles
 from ..geometry.vectors import length
 from .carried_sections import RESISTING, pack
 from .section_forces import SectionForces
@@ -131,7 +132,8 @@ def rectangular_sections(areas: FloatArray, second_moments: FloatArray) -> Secti
     areas = np.where(np.asarray(areas, float) > 0.0, areas, np.nan)
     count = len(areas)
     directions, bending, torsion = np.empty((count, 2, 2)), np.empty((count, 2)), np.empty(count)
-    call("bda_rectangles", count, areas, np.ascontiguousarray(second_moments, float), directions, bending, torsion)
+    second_moments = Doubles.checked("second moments", np.ascontiguousarray(second_moments, float), 4 * count)
+    call("bda_rectangles", count, areas, second_moments, directions, bending, torsion)
     return Sections(areas, directions, bending, torsion)
 
 
@@ -193,7 +195,8 @@ def utilisation(
     """
     parts = forces.axial_n, forces.shear_n, forces.torsion_nm, forces.bending_nm
     count, used = len(sections.areas_m2), np.empty(len(sections.areas_m2))
+    along = Doubles.checked("forces", np.column_stack(parts).astype(float, copy=False), 6 * count)
     friction = np.zeros(count) if friction is None else np.ascontiguousarray(friction, float)
     records = resisting_records(sections, strength).view(float)
-    call("bda_utilisations", count, records, np.column_stack(parts).astype(float, copy=False), friction, used)
+    call("bda_utilisations", count, records, along, Doubles.checked("friction", friction, count), used)
     return used
