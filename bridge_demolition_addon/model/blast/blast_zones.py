@@ -193,8 +193,8 @@ class BlastZone(PlannedAction):
         for axis, columns in enumerate(row for row in found if row):
             for number, name in enumerate(columns):
                 delay_ms = self.delay_ms + axis * self.axis_delay_ms + number * self.column_delay_ms
-                own = {"name": f"{self.name}, {name}", "member": name, "delay_ms": delay_ms}
-                zones.append(replace(self, **own, axis_delay_ms=0.0, column_delay_ms=0.0))
+                one = replace(self, name=f"{self.name}, {name}", member=name, axis_delay_ms=0.0, column_delay_ms=0.0)
+                zones.append(replace(one, delay_ms=delay_ms))
         if not zones:
             known = ", ".join(name for names in axes for name in names) or "none"
             raise self.unexpected("member", f"names of columns, walls or legs of the bridge with *; it has {known}")

@@ -110,7 +110,11 @@ def stages_of(
             time_s=time_s,
             step=_described_step(scenario, time_s, events, model, gone),
             removed=changed.removed,
-            equipment=tuple(each.name for each in (*machines, *lying, *pulls)),
+            equipment=(
+                *(machine.name for machine in machines),
+                *(load.name for load in lying),
+                *(pull.name for pull in pulls),
+            ),
             equipment_n=STANDARD_GRAVITY_M_S2 * math.fsum(machine.mass_kg for machine in machines)
             + STANDARD_GRAVITY_M_S2 * math.fsum(lying_load(load, model.members).mass_kg for load in lying),
             lifts=(*gone, *hanging),
