@@ -128,7 +128,7 @@ def scenario_facts(scenario: Scenario, *, stand: bool = False, progress: Progres
     if stand and model.stiffness is None:
         resting = RestingModel(checked_model(as_elastic, prepared.members), scenario.joints)
     is_elastic = resting.model.stiffness is not None
-    if is_elastic and (reactions := list(reaction_facts(resting))):
+    if is_elastic and (reactions := list(reaction_facts(as_elastic, resting))):
         yield from _section("Reactions at rest", reactions)
     if scenario.bridge:
         yield from _section("Bridge", bridge_facts(scenario.bridge, is_flat=scenario.has_flat_ground))

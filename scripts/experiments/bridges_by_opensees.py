@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Calculate five elastic bridges by OpenSees, which `elastic_bridges.py` compares with, for docs/elastic.md.
+"""Calculate six elastic bridges by OpenSees, which `elastic_bridges.py` compares with, for docs/elastic.md.
 
 Portal, frame of an example, grillage and skewed slab are meshes of eight-node bricks or plane-stress quadrilaterals
 with one point of integration and stabilisation (SSPbrick, SSPquad); the deck over two spans is a beam of Timoshenko.
@@ -81,6 +81,26 @@ class Bricks:
             self.positions[node] = np.array([x + self._shear * y, y, z])
             ops.node(node, *self.positions[node].tolist())
         return self.places[i, j, k]
+
+    def on_top(self, place_m: tuple[float, float], size_m: tuple[float, float], parts: int = 8) -> dict[int, float]:
+        """Parts of a load, spread evenly about a place without skew, on nodes of the top."""
+        found: dict[int, float] = {}
+        spread = (np.arange(parts) + 0.5) / parts - 0.5
+        for at in spread * size_m[0]:
+            for aside in spread * size_m[1]:
+                # What lies aside in a skewed grid lies further along the road.
+                columns = zip(self._grid, (place_m[0] + at - self._shear * aside, place_m[1] + aside), strict=False)
+                (i, u), (j, v) = (self._beside(axis, value) for axis, value in columns)
+                for m, along in ((i, 1.0 - u), (i + 1, u)):
+                    for n, across in ((j, 1.0 - v), (j + 1, v)):
+                        node = self.places[m, n, len(self._grid[2]) - 1]
+                        found[node] = found.get(node, 0.0) + along * across / parts**2
+        return found
+
+    @staticmethod
+    def _beside(axis: np.ndarray, value: float) -> tuple[int, float]:
+        cell = int(np.searchsorted(axis, value)) - 1
+        return cell, float((value - axis[cell]) / (axis[cell + 1] - axis[cell]))
 
     def solve(self) -> tuple[float, float]:
         """Put it under its weight; return the largest deflection, mm, and the first frequency, Hz."""
@@ -217,6 +237,45 @@ def grillage() -> dict[str, float]:
     }
 
 
+def girders_under_a_machine() -> dict[str, float]:
+    """The part of 50 t on 1 m × 0.4 m that each girder carries, over an outer and an inner one, and square and skewed.
+
+    The girders are 0.4 m longer than their span at either end, and none slides along the road at its first bearing.
+    """
+    shares = {}
+    for name, place_m, skew_deg in (
+        ("outer", (8.0, 3.0), 0.0),
+        ("inner", (8.0, 1.0), 0.0),
+        ("outer, at a quarter of the span", (4.0, 3.0), 0.0),
+        ("outer, skew of 25°", (8.0, 3.0), 25.0),
+    ):
+        bricks, bearings = girders_with_ends(skew_deg)
+        solve([(node, (0.0, 0.0, -part)) for node, part in bricks.on_top(place_m, (1.0, 0.4)).items()])
+        for girder, nodes in enumerate(bearings, 1):
+            shares[f"{name}: girder {girder}"] = 1e3 * float(bricks.reaction(nodes)[2])
+    return shares
+
+
+def girders_with_ends(skew_deg: float) -> tuple[Bricks, list[list[int]]]:
+    """Four girders that are longer than their span, and the nodes of the bearings of each."""
+    girders = np.array([-3.0, -1.0, 1.0, 3.0])
+    webs = [(-4.0, -3.2, 3), *((y - 0.2, y + 0.2, 4) for y in girders), *((y + 0.2, y + 1.8, 5) for y in girders[:-1])]
+    grid = (
+        spaced((-0.4, 0.0, 1), (0.0, 16.0, 40), (16.0, 16.4, 1)),
+        spaced(*sorted([*webs, (3.2, 4.0, 3)])),
+        spaced((2.0, 2.9, 8), (2.9, 3.15, 3)),
+    )
+    skew = math.tan(math.radians(skew_deg))
+    bricks = Bricks(grid, lambda x, y, z: z > 2.9 or abs(girders - y).min() < 0.2, 34e9, 2500.0, skew)
+    bearings: list[list[int]] = [[] for _ in girders]
+    for (i, j, k), node in bricks.places.items():
+        if k == 0 and grid[0][i] in (0.0, 16.0):
+            away = abs(girders - grid[1][j])
+            ops.fix(node, int(grid[0][i] == 0.0), int(away.min() < 1e-6), 1)
+            bearings[int(away.argmin())].append(node)
+    return bricks, bearings
+
+
 def skewed_slab() -> dict[str, float]:
     """A slab of 12 m × 8 m × 0.6 m, ends turned by 40°, on lines below its ends, one of them free to slide."""
     grid = spaced((0.0, 12.0, 36)), spaced((-4.0, 4.0, 24)), spaced((0.0, 0.6, 4))
@@ -282,6 +341,7 @@ BRIDGES = {
     "frame of an example": example_frame,
     "deck over two spans": two_spans,
     "four girders": grillage,
+    "girders under a machine": girders_under_a_machine,
     "skewed slab": skewed_slab,
 }
 

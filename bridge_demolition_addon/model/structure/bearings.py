@@ -132,6 +132,7 @@ class _Pad:
 
     places_m: np.ndarray
     area_m2: float  # share of the area where the members touch
+    vertical_n_m: float
     row: np.ndarray  # (p,), before or behind its axis, if it has two rows
 
 
@@ -143,6 +144,7 @@ class _Group:
     pair: tuple[int, int]
     places_m: np.ndarray
     shares: np.ndarray  # (p,), of the stiffness of a pad
+    vertical_n_m: np.ndarray  # (p,), stiffness
     area_m2: float
 
 
@@ -172,6 +174,8 @@ def _pads(table: Bearing, bearing: _PlacedBearing, name: str) -> Iterator[_Pad]:
             )
         width = float((chords[:, 1] - chords[:, 0]).sum()) * float(contact.direction[1])
         arm = table.arm_m(contact.area_m2 / width)
+        is_line = table.pads is None and table.positions_m is None
+        vertical_n_m = table.line_n_m(width) if is_line else table.vertical_n_m
         spots = list(_spots(table, chords))
         if not all(map(len, spots)):
             raise ScenarioError(
@@ -182,7 +186,7 @@ def _pads(table: Bearing, bearing: _PlacedBearing, name: str) -> Iterator[_Pad]:
             rows = (-1.0, 1.0) if arm else (0.0,)
             shifts = np.concatenate([np.full(len(along), table.offset_m + row * arm) for row in rows])
             places = contact.at(np.tile(along, len(rows)), shifts)
-            yield _Pad(places, contact.area_m2 / len(spots), np.repeat(rows, len(along)))
+            yield _Pad(places, contact.area_m2 / len(spots), vertical_n_m, np.repeat(rows, len(along)))
 
 
 def _spots(table: Bearing, chords: np.ndarray) -> Iterator[np.ndarray]:
@@ -251,6 +255,7 @@ def _groups(number: int, name: str, pads: Sequence[_Pad], pairs: np.ndarray) -> 
     share = np.concatenate(shares)
     areas = np.concatenate([np.full(len(pad.places_m), pad.area_m2) for pad in pads])
     places = np.concatenate([pad.places_m for pad in pads])
+    vertical = share * np.concatenate([np.full(len(pad.places_m), pad.vertical_n_m) for pad in pads])
     chosen = np.flatnonzero(share > 0.0)
     unique, of_pair = np.unique(pairs[chosen], axis=0, return_inverse=True)
     of_pair = of_pair.ravel()
@@ -260,6 +265,7 @@ def _groups(number: int, name: str, pads: Sequence[_Pad], pairs: np.ndarray) -> 
             (int(pair[0]), int(pair[1])),
             places[chosen[of_pair == row]],
             share[chosen[of_pair == row]],
+            vertical[chosen[of_pair == row]],
             float((areas * share)[chosen[of_pair == row]].sum()),
         )
         for row, pair in enumerate(unique)
@@ -273,7 +279,7 @@ def _springs(groups: Sequence[_Group], tables: Sequence[Bearing], strength_facto
         rows=np.arange(count),
         parts=np.repeat(np.arange(count), [len(group.shares) for group in groups]),
         places_m=np.concatenate([group.places_m for group in groups]),
-        vertical_n_m=np.concatenate([table.vertical_n_m * group.shares for group, table in columns]),
+        vertical_n_m=np.concatenate([group.vertical_n_m for group in groups]),
         sideways_n_m=np.concatenate([np.multiply.outer(group.shares, table.sideways_n_m) for group, table in columns]),
         friction=np.array([table.slides_at for table in tables], float),
         pulls=np.array([table.tension for table in tables], bool),

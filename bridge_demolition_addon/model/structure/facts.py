@@ -28,7 +28,7 @@ from ..scenario.connections import LARGE_MODEL, MATERIAL_OF_LARGE_MODELS
 from ..scenario.girders import GirderSpan, StudRow
 from ..scenario.scenario import JointName, bearing_tables, studs_of
 from ..schema import given
-from .bearing_ranges import axis_facts
+from .bearing_ranges import bearing_facts
 from .cracking import CrackedBridge, RestingModel
 from .equilibrium import deflection_m, force_utilisations, loads_of, overloaded
 from .member_layers import LayersOfMember, layers_of_members, spread_bars
@@ -307,18 +307,14 @@ def rest_facts(scenario: Scenario, resting: RestingModel) -> Iterator[Fact]:
         yield "damping", _damping_text(scenario, rest.frequency_hz)
 
 
-def reaction_facts(resting: RestingModel) -> Iterator[Fact]:
+def reaction_facts(scenario: Scenario, resting: RestingModel) -> Iterator[Fact]:
     """Yield what bearings carry under the bridge's own weight; nothing without bearings, or where nothing is held."""
     model = resting.model
     if not model.bearings or not resting.rest.held[: len(model.shards)].any():
         return
     stands = _with_cracks(resting)
     bearings = model.bearings.forces(stands.loads if stands else loads_of(model, resting.rest))
-    for bearing in bearings:
-        along, across, up = bearing.force_n / 1000.0
-        lifted = "" if up else ": it has lifted off"
-        yield bearing.name, f"{up:z.1f} kN up, {along:z.1f} kN along, {across:z.1f} kN across{lifted}"
-    yield from axis_facts(model, bearings)
+    yield from bearing_facts(scenario, model, resting.rest, bearings)
 
 
 def _with_cracks(resting: RestingModel) -> CrackedBridge | None:

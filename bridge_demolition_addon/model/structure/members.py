@@ -64,6 +64,9 @@ _SLENDER, _LONGEST_PIECE = 4.0, 3.0
 _FEW = 2
 """Shards of a piece of a girder or its slab up to which these are cut across alone."""
 
+_LEAST_IN_CLEAR = 2
+"""Pieces of a girder between two supports from which on it has pieces of their own above these."""
+
 _SHARDS_OF_PIECE, _MOST_PIECES = 6, 12
 """Shards of a piece of a member with many, and number of pieces of wide ones: what is cambered is straight in each."""
 
@@ -296,10 +299,52 @@ def _stations_m(
             others = [row for row in np.flatnonzero(counts).tolist() if row not in rows] or rows[:1]
             counts[max(others, key=lambda row: members[row].volume_m3)] += rest
         pieces = min(int(counts[rows[0]]) // len(girders), *counts[rows[1:]].tolist(), int(length / shortest))
-        moved = 0.5 * np.random.default_rng([scenario.seed, rows[0]]).random(max(pieces - 1, 0)) - 0.25
-        places = (begin + length * (np.arange(1, pieces) + moved) / max(pieces, 1)).tolist()
+        draw = np.random.default_rng([scenario.seed, rows[0]])
+        places = _pieces_m(begin, begin + length, _supports_m(members, rows[1], rows), pieces, shortest, draw)
         found |= dict.fromkeys(rows, places)
     return found
+
+
+def _supports_m(members: Sequence[Member], girder: int, cast: Sequence[int]) -> list[float]:
+    """Return the middles, along the road, of where a girder lies on what is not cast with it."""
+    corners = [members[girder].without_skew(member.solid.vertices) for member in members]
+    lowest, highest = corners[girder].min(axis=0), corners[girder].max(axis=0)
+    found = []
+    for row, other in enumerate(corners):
+        low, high = np.maximum(lowest, other.min(axis=0))[:2], np.minimum(highest, other.max(axis=0))[:2]
+        lies = abs(float(other[:, 2].max() - lowest[2])) < SHORTEST_LENGTH_M
+        if row not in cast and lies and (low < high).all():
+            found.append(0.5 * float(low[0] + high[0]))
+    return sorted(found)
+
+
+def _pieces_m(
+    begin: float, end: float, supports_m: Sequence[float], pieces: int, shortest: float, draw: np.random.Generator
+) -> list[float]:
+    """Return where girders between two ends are cut into pieces: into short ones above supports, if there are enough.
+
+    What lies on a support does not twist there. Were it longer, the slab beside it would not either, and would carry
+    far too much from one girder to the next.
+    """
+    edges = [begin]
+    for at in supports_m:
+        low, high = at - 0.5 * shortest, at + 0.5 * shortest
+        # An end just beyond a support is part of the piece above that.
+        if low - begin < shortest:
+            low, high = begin, max(high, 2.0 * at - begin)
+        if end - high < shortest:
+            low, high = min(low, 2.0 * at - end), end
+        edges += [low, high]
+    clear = [stretch for stretch in np.reshape([*edges, end], (-1, 2)).tolist() if stretch[0] != stretch[1]]
+    lengths = np.array([high - low for low, high in clear])
+    rest = pieces - len(supports_m)
+    if (lengths < shortest).any() or rest < _LEAST_IN_CLEAR * len(clear):
+        clear, lengths, rest = [(begin, end)], np.array([end - begin]), max(pieces, 1)
+    places = []
+    for (low, high), count in zip(clear, shards_per_member(lengths, rest).tolist(), strict=True):
+        moved = 0.5 * draw.random(count - 1) - 0.25
+        places += [low, *(low + (high - low) * (np.arange(1, count) + moved) / count).tolist(), high]
+    return sorted(place for place in places if begin < place < end)
 
 
 def _across(member: Member, stations_m: Sequence[float]) -> Member:

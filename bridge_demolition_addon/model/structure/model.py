@@ -16,7 +16,7 @@ from ...engineering.foundations.footings import SoilSprings
 from ...engineering.geometry.mesh import TriangleMesh
 from ...engineering.geometry.vectors import cross
 from ...engineering.mechanics.reinforcement import FaceBars
-from ...engineering.structure.connections import Connections
+from ...engineering.structure.connections import GROUND, Connections
 from ..actions import CutOfMembers, CutPlane
 from ..blast.settings import BlastSettings
 from ..bridge.extent import ground_half_size
@@ -41,6 +41,7 @@ from .model_bearings import ModelBearings
 from .steelwork import SteelConnections, SteelEnds
 from .stiffness import connection_stiffness
 from .supports import HeldPart, held_parts
+from .t_beam_stiffness import fit_to_t_beams
 from .tendons import ModelTendons, TendonsAcross
 
 SOURCES: tuple[type[ConnectionSource], ...] = (
@@ -53,6 +54,9 @@ SOURCES: tuple[type[ConnectionSource], ...] = (
 )
 """All that connects shards but faces, in order: sections of steel and studs stand in place of bars in layers, and
 tendons are added to what is there."""
+
+_SLENDER = 2.0
+"""Height of a member over its width from which on it is a column."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -243,8 +247,29 @@ def _stiffness(rows: ConnectionRows, cut: CutBridge, sources: Sequence[Connectio
     others = np.flatnonzero(np.isnan(matrices[:, 0, 0]))
     if len(others):
         of_faces = rows.connections.only(others), rows.moments_m4[others], cut.scenario.joints, rows.joints[others]
-        matrices[others] = connection_stiffness(*of_faces, cut).matrices
+        matrices[others] = connection_stiffness(
+            *of_faces, replace(cut, points_m=_points_to_bearings(rows, cut))
+        ).matrices
+        fit_to_t_beams(matrices, rows, cut)
     return SectionStiffness(matrices)
+
+
+def _points_to_bearings(rows: ConnectionRows, cut: CutBridge) -> np.ndarray:
+    """Return the points (n, 3) of shards, those of columns that bearings stand on as high as these.
+
+    A shard ends in its bearing, and what of it is above its point shortens as well.
+    """
+    if rows.bearings is None:
+        return cut.points_m
+    points, springs = cut.points_m.copy(), rows.bearings.springs
+    below = rows.connections.pairs[springs.rows, 1]
+    tops = springs.middles_m()[:, 2]
+    extents = np.array([np.ptp(member.solid.vertices, axis=0) for member in cut.members])
+    is_column = extents[:, 2] > _SLENDER * extents[:, :2].max(axis=1)
+    for shard, top in zip(below.tolist(), tops.tolist(), strict=True):
+        if shard != GROUND and is_column[cut.member_of_shard[shard]]:
+            points[shard, 2] = top
+    return points
 
 
 def _crack_bars(scenario: Scenario, rows: ConnectionRows) -> CrackBars | None:

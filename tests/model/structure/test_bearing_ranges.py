@@ -9,7 +9,7 @@ from bridge_demolition_addon.cli.main import main
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.scenario.file import scenario_from_text
-from bridge_demolition_addon.model.structure.bearing_ranges import axis_facts, bearing_ranges
+from bridge_demolition_addon.model.structure.bearing_ranges import bearing_axes, bearing_facts, bearing_ranges
 from bridge_demolition_addon.model.structure.equilibrium import loads_of, model_at_rest
 from bridge_demolition_addon.model.structure.model import build_model
 
@@ -100,7 +100,8 @@ def test_what_is_printed_of_cuts(tmp_path, capsys):
     path.write_text(GIRDERS.format(seed=3, shards=60, skew=0.0))
     main(["check", "--cuts", "2", str(path)])
     said = capsys.readouterr().out
-    assert "single bearings         not known by one cut" in said and "Bearings in 2 cuts, seeds 3 to 4" in said
+    assert "Bearings in 2 cuts, seeds 3 to 4" in said
+    assert said.count(" kN up in another cut") == 9 and "by seed 4: single bearings differ by up to " in said
     assert "chance of 67%" in said  # 2 of 3: each of three cuts is as likely to be the least or the largest
     section = said[said.index("Bearings in 2 cuts") :]
     assert section.count(" kN in the mean") == 12 and section.count("in all") == 3
@@ -112,8 +113,9 @@ def test_what_is_printed_of_cuts(tmp_path, capsys):
 def test_bearings_of_a_skewed_bridge_have_their_axes():
     scenario = girders(skew=30.0, shards=60)
     model = build_model(scenario)
-    forces = model.bearings.forces(loads_of(model, model_at_rest(model, scenario.joints)))
-    facts = dict(axis_facts(model, forces))
+    rest = model_at_rest(model, scenario.joints)
+    forces = model.bearings.forces(loads_of(model, rest))
+    facts = dict(bearing_facts(scenario, model, rest, forces))
     assert [name for name in facts if name.startswith("on ")] == ["on abutment 1", "on pier 1 column", "on abutment 2"]
     weight_kn = sum(bearing.force_n[2] for bearing in forces) / 1000.0
     sums = [float(text.split()[0]) for name, text in facts.items() if name.startswith("on ")]
@@ -123,7 +125,23 @@ def test_bearings_of_a_skewed_bridge_have_their_axes():
 def test_a_deck_in_lines_has_no_axis_of_several_bearings():
     scenario = scenario_from_text(deck_text())
     model = build_model(scenario)
-    assert list(axis_facts(model, model.bearings.forces(loads_of(model, model_at_rest(model, scenario.joints))))) == []
+    assert bearing_axes(model, model.bearings.forces(loads_of(model, model_at_rest(model, scenario.joints)))) == ()
+
+
+def test_another_cut_says_how_far_bearings_differ():
+    """What is printed, added to what this cut carries, is what the bridge carries by the next seed."""
+    scenario = girders(shards=60)
+    other = scenario_from_text(GIRDERS.format(seed=4, shards=60, skew=0.0))
+    carried = []
+    for one in (scenario, other):
+        model = build_model(one)
+        rest = model_at_rest(model, one.joints)
+        forces = model.bearings.forces(loads_of(model, rest))
+        carried.append(
+            (np.array([force.force_n[2] for force in forces]), list(bearing_facts(one, model, rest, forces)))
+        )
+    more = [float(text.split("; ")[1].split()[0]) for _, text in carried[0][1] if "another cut" in text]
+    np.testing.assert_allclose(more, 1e-3 * (carried[1][0] - carried[0][0]), atol=0.06)
 
 
 def test_cuts_that_cannot_be_compared_are_refused():
