@@ -64,6 +64,9 @@ _SLENDER, _LONGEST_PIECE = 4.0, 3.0
 _FEW = 2
 """Shards of a piece of a girder or its slab up to which these are cut across alone."""
 
+_THIN_M = 0.05
+"""Slices of girders and slab that are not cut off beside a plane that something else cuts along."""
+
 _LEAST_IN_CLEAR = 2
 """Pieces of a girder between two supports from which on it has pieces of their own above these."""
 
@@ -121,7 +124,8 @@ def fractured_members(
         cuts = [cut for cut in planes if isinstance(cut, CutOfMembers) and cut.cuts((member.name, member.kind))]
         whole = member
         if not len(own_points[index]):
-            whole = _in_convex_parts(_across(member, stations.get(index, ())), int(counts[index]))
+            places = _clear_of_cuts(stations.get(index, ()), member, cuts)
+            whole = _in_convex_parts(_across(member, places), int(counts[index]))
         cut = _cut_along(whole, own_planes, own_points[index]) if own_planes else whole
         if cuts and not len(own_points[index]) and (pieces := _in_pieces(cut, cuts)) is not cut:
             cut, options = pieces, replace(options, stretch=options.stretch or through_thickness(member.solid))
@@ -345,6 +349,15 @@ def _pieces_m(
         moved = 0.5 * draw.random(count - 1) - 0.25
         places += [low, *(low + (high - low) * (np.arange(1, count) + moved) / count).tolist(), high]
     return sorted(place for place in places if begin < place < end)
+
+
+def _clear_of_cuts(stations_m: Sequence[float], member: Member, cuts: Sequence[CutOfMembers]) -> list[float]:
+    """Return the stations that leave no thin slice beside a plane or the side of a box, along which a member ends."""
+    if not len(stations_m) or not cuts:
+        return list(stations_m)
+    along = [member.without_skew(part.vertices)[:, 0] for part in _in_pieces(member, cuts).parts]
+    ends = np.array([(part.min(), part.max()) for part in along]).ravel()
+    return [station for station in stations_m if not (abs(ends - station) < _THIN_M).any()]
 
 
 def _across(member: Member, stations_m: Sequence[float]) -> Member:
