@@ -18,7 +18,7 @@ from .alignments import points_of
 from .elements import Element
 from .library import library
 from .placement import Placement
-from .representations import items_of
+from .representations import CONTRADICTIONS, items_of
 from .source import IfcSource
 
 _ALONG = math.cos(math.radians(20.0))
@@ -72,7 +72,7 @@ def bar_layers(
             continue
         try:
             bars = list(_bars(source, element.entity, placement))
-        except (AttributeError, GeometryError, IndexError, TypeError, ValueError):  # a shape that is not swept
+        except (GeometryError, *CONTRADICTIONS):  # a shape that is not swept
             bars = []
         lost += not bars
         for bar in bars:

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-CONTRADICTIONS = (ArithmeticError, AttributeError, IndexError, KeyError, RecursionError, TypeError, ValueError)
+CONTRADICTIONS = (
+    *(ArithmeticError, AssertionError, AttributeError, IndexError, KeyError),
+    *(RecursionError, TypeError, ValueError),
+)
 """What reading an element fails with where it lacks what its schema asks for."""
 
 
