@@ -17,6 +17,7 @@ from ..model.blast.charges import Charge
 from ..model.blast.damage import distinct_thresholds, ring_radii
 from ..model.blast.receptors import PlaceLoads, peak_overpressures
 from ..model.scenario import Neighbour
+from ..texts import Quantity, Text, Unit
 from .plan_maps import LEVEL_GROUND, draw_area, draw_ground
 from .style import line_style, plain
 
@@ -59,16 +60,16 @@ def overpressure_map(
     lines = axes.contour(
         xs, ys, peaks_kpa, levels=np.array(levels)[order], colors=line_style(1)["color"], linestyles=styles
     )
-    axes.clabel(lines, fmt=lambda level: f"{level:g} kPa", fontsize=6)
-    draw_area(axes, bridge, fill=False, edgecolor="black", linewidth=1.0, label="bridge")
-    axes.plot(*positions.T, "k+", markersize=7, label="charge")
+    axes.clabel(lines, fmt=lambda level: Quantity(level, "kPa", "g"), fontsize=6)
+    draw_area(axes, bridge, fill=False, edgecolor="black", linewidth=1.0, label=Text("bridge"))
+    axes.plot(*positions.T, "k+", markersize=7, label=Text("charge"))
     for neighbour in neighbours:
         if (np.array(neighbour.position_m[:2]) >= low).all() and (np.array(neighbour.position_m[:2]) <= high).all():
             axes.plot(*neighbour.position_m[:2], "k^", markersize=5)
             name_neighbour(axes, neighbour, to_the_left=neighbour.position_m[0] > (low[0] + high[0]) / 2.0)
     draw_ground(axes, ground)
-    axes.set(xlabel="x along the road (m)", ylabel="y across the road (m)")
-    figure.colorbar(image, ax=axes, label="peak overpressure of one charge (kPa)", shrink=0.9)
+    axes.set(xlabel=Text("x along the road ({})", Unit("m")), ylabel=Text("y across the road ({})", Unit("m")))
+    figure.colorbar(image, ax=axes, label=Text("peak overpressure of one charge ({})", Unit("kPa")), shrink=0.9)
     figure.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=3, frameon=False, fontsize=8)
 
 
@@ -84,7 +85,10 @@ def neighbour_pressures(figure: FigureBase, loads: Sequence[tuple[str, PlaceLoad
     axes = figure.add_subplot()
     for number, (name, load) in enumerate(loads):
         axes.plot(1e3 * load.times_s, load.pressures_pa / 1e3, **line_style(number, 1.2), label=plain(name))
-    axes.set(xlabel="time since the start of the blasting (ms)", ylabel="overpressure of all charges (kPa)")
+    axes.set(
+        xlabel=Text("time since the start of the blasting (ms)"),
+        ylabel=Text("overpressure of all charges ({})", Unit("kPa")),
+    )
     axes.set_ylim(bottom=0.0)
     axes.set_xlim(left=0.0)
     axes.grid(alpha=0.3)

@@ -13,6 +13,7 @@ from matplotlib.ticker import LogLocator, NullFormatter, PercentFormatter
 from ..model.optimise.conclusions import Best
 from ..model.search.conclusions import Answer
 from ..system.disk import whole_file
+from ..texts import Text, Unit
 from .style import blank_figure, line_style, plain
 
 _HEIGHT_OF_DOTS = 0.06
@@ -34,13 +35,13 @@ def search_curve(figure: FigureBase, answer: Answer) -> None:
     if curve is not None:
         known = np.isfinite(curve.lows) & np.isfinite(curve.highs)
         band = curve.probabilities[known], curve.lows[known], curve.highs[known]
-        axes.fill_betweenx(*band, color=_BAND, label=f"limits with {settings.confidence:.4g} confidence")
-        axes.plot(curve.values, curve.probabilities, **line_style(0), label="most likely")
-    _dots(axes, values[successes], 1.0, "all criteria met", "o")
-    _dots(axes, values[~successes], 0.0, "not met", "x")
+        axes.fill_betweenx(*band, color=_BAND, label=Text("limits with {} confidence", f"{settings.confidence:.4g}"))
+        axes.plot(curve.values, curve.probabilities, **line_style(0), label=Text("most likely"))
+    _dots(axes, values[successes], 1.0, Text("all criteria met"), "o")
+    _dots(axes, values[~successes], 0.0, Text("not met"), "x")
     if answer.is_known:
         arrow = "k>" if settings.success == "above" else "k<"
-        axes.plot([answer.limit], [settings.probability], arrow, label="the answer")
+        axes.plot([answer.limit], [settings.probability], arrow, label=Text("the answer"))
     if settings.logarithmic:
         axes.set_xscale("log")
         axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
@@ -49,7 +50,7 @@ def search_curve(figure: FigureBase, answer: Answer) -> None:
     span = settings.highest - settings.lowest
     axes.set_xlim(settings.lowest - (0 if settings.logarithmic else 0.05 * span), settings.highest + 0.05 * span)
     axes.set_xlabel(plain(search.shown_quantity))
-    axes.set_ylabel("runs that meet all criteria")
+    axes.set_ylabel(Text("runs that meet all criteria"))
     axes.yaxis.set_major_formatter(PercentFormatter(1.0))
     axes.grid(color="0.9", linewidth=0.5)
     axes.set_axisbelow(True)
@@ -72,17 +73,19 @@ def tradeoff(figure: FigureBase, best: Best) -> None:
     axes = figure.subplots()
     points = np.array([(candidate.charge_kg, candidate.reach_m) for candidate in tried])
     holds, front = (np.array([getattr(candidate, name) for candidate in tried], bool) for name in ("holds", "on_front"))
-    axes.plot(*points[~holds].T, "kx", markersize=4, label="fails too often")
-    axes.plot(*points[holds].T, "ko", markersize=4, fillstyle="none", label="succeeds often enough")
+    axes.plot(*points[~holds].T, "kx", markersize=4, label=Text("fails too often"))
+    axes.plot(*points[holds].T, "ko", markersize=4, fillstyle="none", label=Text("succeeds often enough"))
     if front.any():
         on_front = points[front][np.argsort(points[front, 0], kind="stable")]
-        label = "no other has less of both"
+        label = Text("no other has less of both")
         axes.plot(*on_front.T, "o", drawstyle="steps-post", markersize=4, **line_style(0), label=label)
     chosen = points[[candidate.number == best.candidate for candidate in tried]]
-    axes.plot(*chosen.T, "k*", markersize=12, label="the answer")
-    axes.set_xlabel("all charges (kg)")
-    of_several = f"{settings.quantile:g} quantile of the debris distance (m), {settings.runs_each} runs each"
-    axes.set_ylabel(of_several if settings.runs_each > 1 else "debris distance (m), 1 run each")
+    axes.plot(*chosen.T, "k*", markersize=12, label=Text("the answer"))
+    axes.set_xlabel(Text("all charges ({})", Unit("kg")))
+    of_several = Text(
+        "{} quantile of the debris distance ({}), {} runs each", f"{settings.quantile:g}", Unit("m"), settings.runs_each
+    )
+    axes.set_ylabel(of_several if settings.runs_each > 1 else Text("debris distance ({}), 1 run each", Unit("m")))
     axes.grid(color="0.9", linewidth=0.5)
     axes.set_axisbelow(True)
     figure.legend(loc="outside upper center", ncols=4, frameon=False)

@@ -8,6 +8,7 @@ from matplotlib.figure import FigureBase
 from ..engineering.ground_motion.record import GroundRecord
 from ..model.ground_motion.response_spectrum import design_spectrum, response_spectrum
 from ..model.ground_motion.settings import DIRECTIONS, DesignSpectrum
+from ..texts import Text, Unit
 from .style import line_style
 
 _PERIODS_S = 0.05 * 80.0 ** np.linspace(0.0, 1.0, 120)
@@ -22,9 +23,9 @@ def ground_motion_history(figure: FigureBase, record: GroundRecord, start_s: flo
     """Draw how the ground is accelerated, how fast it is and where, over the time of the run."""
     rows = figure.subplots(3, 1, sharex=True)
     quantities = (
-        ("acceleration (m/s²)", record.accelerations_m_s2),
-        ("velocity (m/s)", record.velocities_m_s),
-        ("displacement (m)", record.displacements_m),
+        (Text("acceleration ({})", Unit("m/s²")), record.accelerations_m_s2),
+        (Text("velocity ({})", Unit("m/s")), record.velocities_m_s),
+        (Text("displacement ({})", Unit("m")), record.displacements_m),
     )
     for axes, (label, values) in zip(rows, quantities, strict=True):
         for number, axis in enumerate(moving_directions(record)):
@@ -32,7 +33,7 @@ def ground_motion_history(figure: FigureBase, record: GroundRecord, start_s: flo
         axes.set_ylabel(label)
         axes.grid(color="0.9", linewidth=0.5)
         axes.set_axisbelow(True)
-    rows[-1].set_xlabel("time (s)")
+    rows[-1].set_xlabel(Text("time (s)"))
     rows[0].legend(frameon=False, ncols=3, loc="lower right", bbox_to_anchor=(1.0, 0.98), borderaxespad=0.2)
 
 
@@ -48,8 +49,8 @@ def response_spectra(figure: FigureBase, record: GroundRecord, wanted: DesignSpe
     if wanted:
         shape = factor * design_spectrum(wanted, _PERIODS_S)
         axes.semilogx(_PERIODS_S, shape, color="0.5", linewidth=2.5, label="EN 1998-1, 5 %")
-    axes.set_xlabel("period (s)")
-    axes.set_ylabel("largest acceleration (m/s²)")
+    axes.set_xlabel(Text("period (s)"))
+    axes.set_ylabel(Text("largest acceleration ({})", Unit("m/s²")))
     axes.grid(color="0.9", linewidth=0.5, which="both")
     axes.set_axisbelow(True)
     axes.legend(frameon=False)

@@ -15,6 +15,7 @@ from ..model.results.collapse import Span
 from ..model.results.energy import Energy
 from ..model.results.force_history import BreakingByKind, ContactForces, largest_on_a_shard
 from ..system.disk import whole_file
+from ..texts import Text, Unit
 from .style import blank_figure, lay_out, line_style, plain
 from .time_axis import KEY, TimeAxis
 
@@ -34,18 +35,18 @@ def forces_figure(results: Results, title: str, impact_s: float | None) -> Figur
     figure = blank_figure(9.0, 5.0, dpi=120, layout="constrained")
     force_axes = figure.add_subplot()
     times, (sums, resultants) = results.frames.time_s, _largest_loads(results)
-    lines = force_axes.plot(times, sums / 1e3, color="#b2182b", label="largest sum of magnitudes on a shard")
-    lines += force_axes.plot(times, resultants / 1e3, color="#2166ac", label="largest resultant on a shard")
+    lines = force_axes.plot(times, sums / 1e3, color="#b2182b", label=Text("largest sum of magnitudes on a shard"))
+    lines += force_axes.plot(times, resultants / 1e3, color="#2166ac", label=Text("largest resultant on a shard"))
     force_axes.set_title(plain(title), wrap=True)
-    force_axes.set(xlabel="time (s)", ylabel="force (kN)", xmargin=0.0)
+    force_axes.set(xlabel=Text("time (s)"), ylabel=Text("force ({})", Unit("kN")), xmargin=0.0)
     force_axes.set_ylim(bottom=0.0)
     force_axes.grid(alpha=0.3)
     count_axes = force_axes.twinx()
     intact = results.frames.intact.sum(axis=1)
-    lines += count_axes.plot(times, intact, color="#4d4d4d", linestyle="--", label="connections intact")
-    count_axes.set(ylabel="connections intact", ylim=(0.0, 1.05 * max(1, intact.max())))
+    lines += count_axes.plot(times, intact, color="#4d4d4d", linestyle="--", label=Text("connections intact"))
+    count_axes.set(ylabel=Text("connections intact"), ylim=(0.0, 1.05 * max(1, intact.max())))
     if impact_s is not None:
-        lines.append(force_axes.axvline(impact_s, color="black", linestyle=":", label="impact of the ball"))
+        lines.append(force_axes.axvline(impact_s, color="black", linestyle=":", label=Text("impact of the ball")))
     figure.legend(handles=lines, loc="outside lower center", ncols=2, frameon=False)
     lay_out(figure)
     return figure
@@ -53,30 +54,30 @@ def forces_figure(results: Results, title: str, impact_s: float | None) -> Figur
 
 def contact_force_history(figure: FigureBase, forces: ContactForces, impact_s: float | None) -> None:
     """Draw total and largest contact force, and what the ground carries by contacts, over time."""
-    axes = _time_axes(figure, "contact force (kN)", forces.times_s)
-    axes.plot(forces.times_s, forces.total_n / 1e3, **line_style(0), label="all contacts together, at least")
-    axes.plot(forces.times_s, forces.largest_n / 1e3, **line_style(1), label="largest on one shard")
-    axes.plot(forces.times_s, forces.ground_n / 1e3, **line_style(2), label="upward force of the ground")
+    axes = _time_axes(figure, Text("contact force ({})", Unit("kN")), forces.times_s)
+    axes.plot(forces.times_s, forces.total_n / 1e3, **line_style(0), label=Text("all contacts together, at least"))
+    axes.plot(forces.times_s, forces.largest_n / 1e3, **line_style(1), label=Text("largest on one shard"))
+    axes.plot(forces.times_s, forces.ground_n / 1e3, **line_style(2), label=Text("upward force of the ground"))
     _finish(figure, axes, impact_s)
 
 
 def load_history(figure: FigureBase, results: Results, impact_s: float | None) -> None:
     """Draw the largest load on any shard over time, by connections and contacts together."""
-    axes = _time_axes(figure, "largest load on a shard (kN)", results.frames.time_s)
+    axes = _time_axes(figure, Text("largest load on a shard ({})", Unit("kN")), results.frames.time_s)
     _draw_loads(axes, results.frames.time_s, *_largest_loads(results))
     _finish(figure, axes, impact_s)
 
 
 def logged_load_history(figure: FigureBase, times_s: np.ndarray, sums_n: np.ndarray, resultants_n: np.ndarray) -> None:
     """Draw the largest sum (k,) and resultant (k,) on any body over the times (k,) of a log."""
-    axes = _time_axes(figure, "largest load on a body (kN)", times_s)
+    axes = _time_axes(figure, Text("largest load on a body ({})", Unit("kN")), times_s)
     _draw_loads(axes, times_s, sums_n, resultants_n)
     _finish(figure, axes, None)
 
 
 def _draw_loads(axes: Axes, times_s: np.ndarray, sums_n: np.ndarray, resultants_n: np.ndarray) -> None:
-    axes.plot(times_s, sums_n / 1e3, **line_style(0), label="sum of magnitudes")
-    axes.plot(times_s, resultants_n / 1e3, **line_style(1), label="resultant")
+    axes.plot(times_s, sums_n / 1e3, **line_style(0), label=Text("sum of magnitudes"))
+    axes.plot(times_s, resultants_n / 1e3, **line_style(1), label=Text("resultant"))
 
 
 def _largest_loads(results: Results) -> tuple[np.ndarray, np.ndarray]:
@@ -89,17 +90,21 @@ def breaking_history(
     figure: FigureBase, times_s: np.ndarray, kinds: Sequence[BreakingByKind], impact_s: float | None
 ) -> None:
     """Draw which share of the connections of each kind has cracked or is torn, over time, and which of all is torn."""
-    axes = _time_axes(figure, "connections cracked or torn (%)", times_s)
+    axes = _time_axes(figure, Text("connections cracked or torn (%)"), times_s)
     for number, kind in enumerate(kinds[:_MOST_KINDS]):
-        label = plain(f"{kind.kind} ({kind.broken[-1]} of {kind.count})")
+        label = plain(Text("{} ({} of {})", kind.kind, kind.broken[-1], kind.count))
         axes.plot(times_s, 100.0 * kind.broken / kind.count, **line_style(number + 1), label=label)
     count = sum(kind.count for kind in kinds)
     broken = np.sum([kind.broken for kind in kinds], axis=0)
-    all_of_them: dict[str, Any] = {"color": "black", "linewidth": 2.5, "label": f"all ({broken[-1]} of {count})"}
+    all_of_them: dict[str, Any] = {
+        "color": "black",
+        "linewidth": 2.5,
+        "label": Text("all ({} of {})", broken[-1], count),
+    }
     axes.plot(times_s, 100.0 * broken / count, **all_of_them)
     torn = [kind.torn for kind in kinds if kind.torn is not None]
     if len(torn) == len(kinds) and (all_torn := np.sum(torn, axis=0))[-1] < broken[-1]:
-        label = f"torn ({all_torn[-1]} of {count})"
+        label = Text("torn ({} of {})", all_torn[-1], count)
         axes.plot(times_s, 100.0 * all_torn / count, color="black", linestyle=":", linewidth=2.5, label=label)
     axes.set_ylim(0.0, 105.0)
     _finish(figure, axes, impact_s, columns=3)
@@ -107,11 +112,13 @@ def breaking_history(
 
 def span_heights(figure: FigureBase, times_s: np.ndarray, spans: Sequence[Span], impact_s: float | None) -> None:
     """Draw the height of the centre of mass of every span over time, and of the lowest centre of its shards."""
-    axes = _time_axes(figure, "height above the ground (m)", times_s)
+    axes = _time_axes(figure, Text("height above the ground ({})", Unit("m")), times_s)
     for number, span in enumerate(spans):
         style = line_style(number)
-        axes.plot(times_s, span.heights_m, **style, label=plain(f"{span.name}: centre of mass"))
-        axes.plot(times_s, span.lowest_m, **style | {"linewidth": 0.7}, label=plain(f"{span.name}: lowest shard"))
+        axes.plot(times_s, span.heights_m, **style, label=plain(Text("{}: centre of mass", span.name)))
+        axes.plot(
+            times_s, span.lowest_m, **style | {"linewidth": 0.7}, label=plain(Text("{}: lowest shard", span.name))
+        )
     highest = max((float(span.heights_m.max()) for span in spans), default=0.0)
     axes.set_ylim(min(0.0, axes.get_ylim()[0]), 1.05 * highest if highest > 0.0 else None)
     _finish(figure, axes, impact_s, columns=2)
@@ -119,19 +126,19 @@ def span_heights(figure: FigureBase, times_s: np.ndarray, spans: Sequence[Span],
 
 def progress_history(figure: FigureBase, times_s: np.ndarray, progress: np.ndarray, impact_s: float | None) -> None:
     """Draw the progress of the collapse over time."""
-    axes = _time_axes(figure, "progress (%)", times_s)
-    axes.plot(times_s, 100.0 * progress, **line_style(0), label="progress of the collapse")
+    axes = _time_axes(figure, Text("progress (%)"), times_s)
+    axes.plot(times_s, 100.0 * progress, **line_style(0), label=Text("progress of the collapse"))
     axes.set_ylim(min(0.0, 105.0 * progress.min()), 105.0)
     _finish(figure, axes, impact_s)
 
 
 def energy_history(figure: FigureBase, energy: Energy, impact_s: float | None) -> None:
     """Draw potential and kinetic energy, and what is lost of them, over time."""
-    axes = _time_axes(figure, "energy (MJ)", energy.times_s)
-    axes.plot(energy.times_s, energy.potential_j / 1e6, **line_style(0), label="potential")
-    axes.plot(energy.times_s, energy.kinetic_j / 1e6, **line_style(1), label="kinetic")
-    axes.plot(energy.times_s, energy.rotation_j / 1e6, **line_style(3), label="part of it in rotation")
-    axes.plot(energy.times_s, energy.dissipated_j / 1e6, **line_style(2), label="dissipated")
+    axes = _time_axes(figure, Text("energy ({})", Unit("MJ")), energy.times_s)
+    axes.plot(energy.times_s, energy.potential_j / 1e6, **line_style(0), label=Text("potential"))
+    axes.plot(energy.times_s, energy.kinetic_j / 1e6, **line_style(1), label=Text("kinetic"))
+    axes.plot(energy.times_s, energy.rotation_j / 1e6, **line_style(3), label=Text("part of it in rotation"))
+    axes.plot(energy.times_s, energy.dissipated_j / 1e6, **line_style(2), label=Text("dissipated"))
     _finish(figure, axes, impact_s)
 
 
@@ -142,9 +149,9 @@ def throw_distribution(figure: FigureBase, throws_m: np.ndarray, masses_kg: np.n
     distances = np.concatenate([[0.0], throws_m[order]])
     by_mass = 100.0 * (1.0 - np.concatenate([[0.0], np.cumsum(masses_kg[order])]) / masses_kg.sum())
     by_number = 100.0 * (1.0 - np.arange(len(distances)) / max(len(throws_m), 1))
-    axes.step(distances, by_mass, where="post", **line_style(0), label="by mass")
-    axes.step(distances, by_number, where="post", **line_style(1), label="by number of shards")
-    axes.set(xlabel="throw (m)", ylabel="debris thrown farther (%)", ylim=(0.0, 102.0))
+    axes.step(distances, by_mass, where="post", **line_style(0), label=Text("by mass"))
+    axes.step(distances, by_number, where="post", **line_style(1), label=Text("by number of shards"))
+    axes.set(xlabel=Text("throw ({})", Unit("m")), ylabel=Text("debris thrown farther (%)"), ylim=(0.0, 102.0))
     axes.set_xlim(left=0.0)
     axes.grid(alpha=0.3)
     axes.legend(frameon=False, fontsize=8)
@@ -160,7 +167,7 @@ def compared_histories(figure: FigureBase, label: str, histories: Sequence[tuple
 
 def _time_axes(figure: FigureBase, label: str, times_s: np.ndarray) -> Axes:
     axes = figure.add_subplot()
-    axes.set(xlabel="time (s)", ylabel=label)
+    axes.set(xlabel=Text("time (s)"), ylabel=label)
     last = float(times_s.max(initial=0.0))
     axes.set_xlim(0.0, last if last > 0.0 else 1.0)
     axes.grid(alpha=0.3)
@@ -172,7 +179,7 @@ def _finish(figure: FigureBase, axes: Axes, impact_s: float | None, columns: int
         if np.size(line.get_xdata()) == 1:  # a run of one frame has no line to show
             line.set_marker("o")
     if impact_s is not None:
-        axes.axvline(impact_s, color="black", linestyle=(0, (1, 1)), linewidth=1.0, label="impact of the ball")
+        axes.axvline(impact_s, color="black", linestyle=(0, (1, 1)), linewidth=1.0, label=Text("impact of the ball"))
     if axes.get_ylim()[0] > 0.0:
         axes.set_ylim(bottom=0.0)
     figure.legend(loc="outside lower center", ncols=columns, frameon=False, fontsize=8)

@@ -24,6 +24,7 @@ from ..model.debris.footprint import plan_hulls
 from ..model.debris.throws import Debris, HeightMap
 from ..model.results.arrays import Results
 from ..model.scenario import Zone
+from ..texts import Quantity, Text, Unit
 from .style import MM_PER_INCH, MM_PER_POINT, PAGE_WIDTH_MM, blank_figure, lay_out, plain
 
 NAMED_THROWS = 5
@@ -70,9 +71,13 @@ def debris_map(
     axes.add_collection(PolyCollection(shards, facecolors="0.78", edgecolors="0.45", linewidths=0.3))
     if trajectories:
         paths = np.swapaxes(results.frames.positions_m[:, debris.bodies, :2], 0, 1)
-        axes.add_collection(LineCollection(list(paths), colors="0.3", linewidths=0.3, label="paths of the shards"))
-    draw_area(axes, debris.area, fill=False, edgecolor="black", linewidth=1.0, label="footprint of the debris")
-    draw_area(axes, debris.outline, fill=False, edgecolor="black", linewidth=1.6, linestyle="--", label="bridge before")
+        axes.add_collection(
+            LineCollection(list(paths), colors="0.3", linewidths=0.3, label=Text("paths of the shards"))
+        )
+    draw_area(axes, debris.area, fill=False, edgecolor="black", linewidth=1.0, label=Text("footprint of the debris"))
+    draw_area(
+        axes, debris.outline, fill=False, edgecolor="black", linewidth=1.6, linestyle="--", label=Text("bridge before")
+    )
     balls = results.inventory.of_kind("ball")
     for ball, hull in zip(balls, plan_hulls(results, balls, -1), strict=True):
         name = plain(results.inventory.body_names[ball])
@@ -142,10 +147,10 @@ def pile_map(
     image = axes.imshow(
         heights.heights_m, extent=extent, origin="lower", cmap="Greys", vmin=0.0, vmax=max(top, 0.1), aspect="equal"
     )
-    draw_area(axes, outline, fill=False, edgecolor="black", linewidth=1.6, linestyle="--", label="bridge before")
+    draw_area(axes, outline, fill=False, edgecolor="black", linewidth=1.6, linestyle="--", label=Text("bridge before"))
     fit(axes, figure)
     draw_ground(axes, ground)
-    figure.colorbar(image, ax=axes, label="height above the ground (m)", shrink=0.8)
+    figure.colorbar(image, ax=axes, label=Text("height above the ground ({})", Unit("m")), shrink=0.8)
 
 
 def exclusion_map(
@@ -153,12 +158,16 @@ def exclusion_map(
 ) -> None:
     """Draw the areas that make up the exclusion zone."""
     axes = plan_axes(figure)
-    draw_area(axes, zone.whole, facecolor="0.93", edgecolor="black", linewidth=2.0, label="exclusion zone of one run")
+    draw_area(
+        axes, zone.whole, facecolor="0.93", edgecolor="black", linewidth=2.0, label=Text("exclusion zone of one run")
+    )
     draw_zones(axes, zones)
-    draw_area(axes, zone.drop, facecolor="0.82", edgecolor="black", linewidth=0.8, linestyle=":", label="designed drop")
+    draw_area(
+        axes, zone.drop, facecolor="0.82", edgecolor="black", linewidth=0.8, linestyle=":", label=Text("designed drop")
+    )
     style = {"facecolor": "none", "edgecolor": "0.3", "hatch": "....", "linewidth": 0.8}
-    draw_area(axes, zone.debris, **style, label="debris of one run")
-    draw_area(axes, zone.plan, facecolor="0.6", edgecolor="black", linewidth=1.2, linestyle="--", label="bridge")
+    draw_area(axes, zone.debris, **style, label=Text("debris of one run"))
+    draw_area(axes, zone.plan, facecolor="0.6", edgecolor="black", linewidth=1.2, linestyle="--", label=Text("bridge"))
     fit(axes, figure)
     name_zones(axes, zones)
     draw_ground(axes, ground)
@@ -173,13 +182,15 @@ def debris_maps(figure: FigureBase, runs: Sequence[tuple[str, Debris]]) -> None:
     for axes, (name, debris) in zip(panels.flat, runs, strict=False):
         axes.set_title(plain(name), fontsize=8, loc="left")
         axes.set_aspect("equal", adjustable="box")
-        axes.set(xlabel="x along the road (m)", ylabel="y across (m)")
+        axes.set(xlabel=Text("x along the road ({})", Unit("m")), ylabel=Text("y across ({})", Unit("m")))
         axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]))
         axes.grid(alpha=0.25)
         axes.set_axisbelow(True)
-        draw_area(axes, debris.area, facecolor="0.7", edgecolor="0.3", linewidth=0.4, label="footprint of the debris")
+        draw_area(
+            axes, debris.area, facecolor="0.7", edgecolor="0.3", linewidth=0.4, label=Text("footprint of the debris")
+        )
         style = {"fill": False, "edgecolor": "black", "linewidth": 1.2, "linestyle": "--"}
-        draw_area(axes, debris.outline, label="bridge before", **style)
+        draw_area(axes, debris.outline, label=Text("bridge before"), **style)
         draw_ground(axes, debris.ground)
     for axes in panels.flat[len(runs) :]:
         axes.remove()
@@ -272,7 +283,7 @@ def plan_axes(figure: FigureBase) -> Axes:
     """Return axes in metres along and across the road, at one scale."""
     axes = figure.add_subplot()
     axes.set_aspect("equal", adjustable="box")
-    axes.set(xlabel="x along the road (m)", ylabel="y across the road (m)")
+    axes.set(xlabel=Text("x along the road ({})", Unit("m")), ylabel=Text("y across the road ({})", Unit("m")))
     axes.grid(alpha=0.25)
     axes.set_axisbelow(True)
     return axes
@@ -309,4 +320,6 @@ def _dimension(axes: Axes, zone: ExclusionZone) -> None:
     for start, end, length in sides:
         axes.annotate("", end, start, arrowprops=arrow)
         position = (np.array(start) + np.array(end)) / 2.0
-        axes.annotate(f"{rounded_up(length, '0.1')} m", position, ha="center", va="center", fontsize=8, bbox=box)
+        axes.annotate(
+            Quantity(rounded_up(length, "0.1"), "m"), position, ha="center", va="center", fontsize=8, bbox=box
+        )

@@ -17,13 +17,18 @@ from ..engineering.geometry.solids import to_manifold
 from ..engineering.reinforced_concrete.least_areas import clear_m
 from ..model.bridge.member import Member
 from ..model.reinforcement.schedule import Schedule, ScheduledBars
+from ..texts import Quantity, Text, Unit
 from .style import plain
 
 _PLANES = {0: (1, 2), 1: (0, 2), 2: (1, 0)}
 """Axes to the right and upwards in sections across each axis."""
 
 _AXIS_OF_KIND = {"deck": 0, "girder": 0, "pier cap": 1, "pier": 2, "abutment": 2}
-_NAMES = {0: "x along the road (m)", 1: "y across the road (m)", 2: "height (m)"}
+_NAMES = {
+    0: Text("x along the road ({})", Unit("m")),
+    1: Text("y across the road ({})", Unit("m")),
+    2: Text("height ({})", Unit("m")),
+}
 _SHORT = "xyz"
 _CONCRETE, _ACROSS, _BARS = "0.9", "#2166ac", "#b2182b"
 _LETTERS_PT = 7.0
@@ -86,7 +91,7 @@ def _draw(axes: Axes, section: MemberSection, schedule: Schedule) -> None:
                 labels.append((_label_height(row, member, up), _label(row)))
     axes.set_aspect("equal", adjustable="datalim")
     axes.autoscale_view()
-    at = f", {_SHORT[section.axis]} = {section.at_m:.2f} m"
+    at = Text(", {} = {}", _SHORT[section.axis], Quantity(section.at_m, "m", ".2f"))
     axes.set_title(plain(section.title + at), fontsize=_LETTERS_PT + 1.5)
     axes.tick_params(labelsize=_LETTERS_PT)
     axes.set_ylabel(_NAMES[up], fontsize=_LETTERS_PT)
@@ -101,7 +106,7 @@ def _is_at(row: ScheduledBars, section: MemberSection) -> bool:
 
 
 def _label(row: ScheduledBars) -> str:
-    return f"{row.where}: {row.bars_text if row.choice else f'{row.layer.area_mm2:.0f} mm²'}"
+    return Text("{}: {}", row.where, row.bars_text if row.choice else f"{row.layer.area_mm2:.0f} mm²")
 
 
 def _label_height(row: ScheduledBars, member: Member, up: int) -> float:

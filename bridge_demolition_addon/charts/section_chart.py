@@ -8,6 +8,7 @@ from matplotlib.patches import Patch
 
 from ..engineering.geometry.plan_areas import outlines
 from ..model.debris.pile_sections import Direction, PileSection
+from ..texts import Text, Unit
 from .plan_maps import draw_area
 
 _DEBRIS, _STANDING = ("#d9a066", "#7f4a1e"), ("0.85", "0.35")
@@ -20,7 +21,10 @@ def section_chart(figure: FigureBase, section: PileSection) -> None:
     """Draw a section to one scale both ways, with heights above 0."""
     axes = figure.add_subplot()
     handles = []
-    for area, (face, edge), name in ((section.standing, _STANDING, "standing"), (section.debris, _DEBRIS, "debris")):
+    for area, (face, edge), name in (
+        (section.standing, _STANDING, "standing"),
+        (section.debris, _DEBRIS, Text("debris")),
+    ):
         if not area.is_empty():
             draw_area(axes, area, linewidth=0.8, facecolor=face, edgecolor=edge)
             handles.append(Patch(label=name, facecolor=face, edgecolor=edge))
@@ -30,8 +34,8 @@ def section_chart(figure: FigureBase, section: PileSection) -> None:
     axes.grid(visible=True, color="0.85", linewidth=0.5)
     axes.set_axisbelow(True)
     along = "x" if section.direction is Direction.ALONG else "y"
-    axes.set_xlabel(f"{along} (m)")
-    axes.set_ylabel("height (m)")
+    axes.set_xlabel(Text("{} ({})", along, Unit("m")))
+    axes.set_ylabel(Text("height ({})", Unit("m")))
     if handles:
         axes.legend(handles=handles, loc="upper right", fontsize=8)
 

@@ -11,6 +11,7 @@ from matplotlib.figure import FigureBase
 from ..engineering.geometry.plan_areas import outlines
 from ..model.debris.footprint import corners_at
 from ..model.results.arrays import Results
+from ..texts import Text, Unit
 
 DECADES = 2.0
 """Powers of ten of stress from the darkest to the lightest colour."""
@@ -33,9 +34,15 @@ def stress_elevation(figure: FigureBase, results: Results, step: int) -> None:
     axes.add_collection(PolyCollection(balls, facecolors="0.25", edgecolors="black", linewidths=0.5))
     axes.axhline(0.0, color="black", linewidth=1.2)
     axes.autoscale_view()
-    axes.set(xlabel="x along the road (m)", ylabel="height (m)")
+    axes.set(xlabel=Text("x along the road ({})", Unit("m")), ylabel=Text("height ({})", Unit("m")))
     figure.colorbar(
-        drawn, ax=axes, label="equivalent stress (MPa)", extend="min", orientation="horizontal", aspect=40, shrink=0.6
+        drawn,
+        ax=axes,
+        label=Text("equivalent stress ({})", Unit("MPa")),
+        extend="min",
+        orientation="horizontal",
+        aspect=40,
+        shrink=0.6,
     )
 
 

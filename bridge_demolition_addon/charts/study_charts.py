@@ -12,6 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import FigureBase
 from matplotlib.ticker import MaxNLocator, PercentFormatter
 
+from ..texts import Text, Unit
 from .style import line_style, plain
 
 LIMIT_COLOUR = "#b2182b"
@@ -45,15 +46,19 @@ def reach_distribution(
     finite = np.sort(reaches_m[np.isfinite(reaches_m)])
     bins = min(_MOST_BINS, max(5, math.isqrt(4 * len(finite))))
     upper.hist(finite, bins=bins, color="0.75", edgecolor="0.35", linewidth=0.5)
-    upper.set_ylabel("runs")
+    upper.set_ylabel(Text("runs"))
     shares = np.arange(1, len(finite) + 1) / len(reaches_m)
-    label = "share of the runs of this study"
+    label = Text("share of the runs of this study")
     lower.step(np.append(0.0, finite), np.append(0.0, shares), where="post", **line_style(0), label=label)
-    lower.axhline(quantile, color="0.4", linewidth=0.9, linestyle=":", label=f"{100.0 * quantile:.10g} %")
+    lower.axhline(quantile, color="0.4", linewidth=0.9, linestyle=":", label=Text("{} %", f"{100.0 * quantile:.10g}"))
     if limit:
         upper.axvline(limit[0], color=LIMIT_COLOUR, linewidth=1.8)
-        lower.axvline(limit[0], color=LIMIT_COLOUR, linewidth=1.8, label=f"limit, {limit[1]}")
-    lower.set(xlabel="debris distance from the bridge's plan (m)", ylabel="stays within", ylim=(0.0, 1.02))
+        lower.axvline(limit[0], color=LIMIT_COLOUR, linewidth=1.8, label=Text("limit, {}", limit[1]))
+    lower.set(
+        xlabel=Text("debris distance from the bridge's plan ({})", Unit("m")),
+        ylabel=Text("stays within"),
+        ylim=(0.0, 1.02),
+    )
     lower.set_xlim(left=0.0)
     lower.yaxis.set_major_formatter(PercentFormatter(1.0, symbol=" %"))
     for axes in (upper, lower):
@@ -69,17 +74,19 @@ def limit_over_runs(figure: FigureBase, reaches_m: np.ndarray, runs: np.ndarray,
     shown = np.unique(np.rint(np.linspace(1, len(reaches_m), min(len(reaches_m), _MOST_POINTS))).astype(int))
     medians = np.array([np.median(reaches_m[:count]) for count in shown])
     some = slice(None, None, 1 + len(reaches_m) // MOST_DOTS)
-    axes.plot(counts[some], _drawable(reaches_m[some]), ".", color="0.6", markersize=3.0, label="runs")
-    _mark_endless(axes, counts, reaches_m, {"marker": "x", "color": "0.3", "label": "runs that did not finish"})
+    axes.plot(counts[some], _drawable(reaches_m[some]), ".", color="0.6", markersize=3.0, label=Text("runs"))
+    _mark_endless(axes, counts, reaches_m, {"marker": "x", "color": "0.3", "label": Text("runs that did not finish")})
     largest = np.maximum.accumulate(reaches_m)
-    axes.step(counts, _drawable(largest), where="post", **line_style(3, 1.0), label="largest so far")
-    axes.plot(shown, _drawable(medians), **line_style(2, 1.2), label="median so far")
+    axes.step(counts, _drawable(largest), where="post", **line_style(3, 1.0), label=Text("largest so far"))
+    axes.plot(shown, _drawable(medians), **line_style(2, 1.2), label=Text("median so far"))
     marker: dict[str, Any] = {"marker": "o", "markersize": 2.5} if len(runs) < _FEW_LIMITS else {}
-    style: dict[str, Any] = {"color": LIMIT_COLOUR, "linewidth": 1.8, "label": "limit by the runs so far"}
+    style: dict[str, Any] = {"color": LIMIT_COLOUR, "linewidth": 1.8, "label": Text("limit by the runs so far")}
     axes.step(runs, _drawable(limits_m), where="post", **style, **marker)
-    _mark_endless(axes, runs, limits_m, {"marker": "^", "color": LIMIT_COLOUR, "label": "no limit by the runs so far"})
+    _mark_endless(
+        axes, runs, limits_m, {"marker": "^", "color": LIMIT_COLOUR, "label": Text("no limit by the runs so far")}
+    )
     axes.xaxis.set_major_locator(MaxNLocator(integer=True))
-    axes.set(xlabel="runs", ylabel="debris distance (m)", xlim=(0, len(reaches_m) * 1.02))
+    axes.set(xlabel=Text("runs"), ylabel=Text("debris distance ({})", Unit("m")), xlim=(0, len(reaches_m) * 1.02))
     axes.set_ylim(bottom=0.0)
     axes.grid(alpha=0.3)
     figure.legend(loc="outside lower center", ncols=3, frameon=False, fontsize=8)
@@ -103,7 +110,7 @@ def output_against_inputs(figure: FigureBase, label: str, values: np.ndarray, pa
         axes.scatter(_places(axes, panel.values), values, s=size, color="0.25", linewidths=0.0, alpha=0.7)
         axes.set_xlabel(plain(panel.name), fontsize=7, wrap=True)
         if panel.correlation is not None and math.isfinite(panel.correlation):
-            axes.set_title(f"rank correlation {panel.correlation:+.2f}", fontsize=7)
+            axes.set_title(Text("rank correlation {}", f"{panel.correlation:+.2f}"), fontsize=7)
         axes.tick_params(labelsize=6)
         axes.grid(alpha=0.3)
     for axes in grid.flat[len(panels) :]:

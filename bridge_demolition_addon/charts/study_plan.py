@@ -10,6 +10,7 @@ from matplotlib.figure import FigureBase
 
 from ..engineering.geometry.plan_areas import outlines
 from ..model.scenario import Neighbour, Zone
+from ..texts import Text
 from .blast_maps import name_neighbour
 from .plan_maps import draw_area, draw_zones, fit, name_zones, plan_axes
 from .study_charts import LIMIT_COLOUR
@@ -37,7 +38,7 @@ def study_plan(
     for shade, (label, area) in zip(_SHADES[-len(likely) :] if likely else (), likely.items(), strict=True):
         draw_area(axes, area, facecolor=shade, edgecolor="0.35", linewidth=0.5, label=plain(label))
     draw_zones(axes, zones)
-    draw_area(axes, bridge, fill=False, edgecolor="black", linewidth=1.6, linestyle="--", label="bridge before")
+    draw_area(axes, bridge, fill=False, edgecolor="black", linewidth=1.6, linestyle="--", label=Text("bridge before"))
     for number, (label, area) in enumerate(limits.items()):
         style = {"linewidth": 1.8, "linestyle": "-"} if not number else {"linewidth": 1.0, "linestyle": (0, (6, 2))}
         draw_area(axes, area, fill=False, edgecolor=LIMIT_COLOUR, label=plain(label), **style)
@@ -45,7 +46,7 @@ def study_plan(
     near = [neighbour for neighbour in neighbours if _is_within(neighbour, low, high)]
     if near:
         positions = np.array([neighbour.position_m[:2] for neighbour in near])
-        axes.plot(*positions.T, "^", color="black", markersize=5.0, linestyle="none", label="neighbours")
+        axes.plot(*positions.T, "^", color="black", markersize=5.0, linestyle="none", label=Text("neighbours"))
     fit(axes, figure)
     name_zones(axes, zones)
     for neighbour in near:

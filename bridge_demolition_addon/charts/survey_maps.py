@@ -9,6 +9,7 @@ from matplotlib.figure import FigureBase
 from matplotlib.patches import Patch
 
 from ..model.debris.survey import SurveyComparison
+from ..texts import Text, Unit, distance_to_keep
 from .plan_maps import draw_area, fit, plan_axes
 
 _COLOURS = ("#4477aa", "#ee6677", "#228833")
@@ -26,7 +27,7 @@ def difference_map(figure: FigureBase, comparison: SurveyComparison) -> None:
     )
     _draw_limits(axes, comparison)
     fit(axes, figure)
-    figure.colorbar(image, ax=axes, label="survey less forecast (m)", shrink=0.8)
+    figure.colorbar(image, ax=axes, label=Text("survey less forecast ({})", Unit("m")), shrink=0.8)
 
 
 def footprints_map(figure: FigureBase, comparison: SurveyComparison) -> None:
@@ -45,7 +46,7 @@ def footprints_map(figure: FigureBase, comparison: SurveyComparison) -> None:
     )
     _draw_limits(axes, comparison)
     fit(axes, figure)
-    names = ("forecast alone", "survey alone", "both")
+    names = (Text("forecast alone"), Text("survey alone"), "both")
     handles = [Patch(color=colour, label=name) for colour, name in zip(_COLOURS, names, strict=True)]
     axes.legend(handles=handles, loc="upper right", fontsize=7)
 
@@ -58,7 +59,20 @@ def _extent(comparison: SurveyComparison) -> tuple[float, float, float, float]:
 
 def _draw_limits(axes: Axes, comparison: SurveyComparison) -> None:
     draw_area(
-        axes, comparison.outline, fill=False, edgecolor="black", linewidth=1.4, linestyle="--", label="bridge before"
+        axes,
+        comparison.outline,
+        fill=False,
+        edgecolor="black",
+        linewidth=1.4,
+        linestyle="--",
+        label=Text("bridge before"),
     )
     limit = comparison.outline.offset(comparison.limit_m)
-    draw_area(axes, limit, fill=False, edgecolor="tab:red", linewidth=1.2, label=f"limit, {comparison.limit_m:.1f} m")
+    draw_area(
+        axes,
+        limit,
+        fill=False,
+        edgecolor="tab:red",
+        linewidth=1.2,
+        label=Text("limit, {}", distance_to_keep(comparison.limit_m, ".1f")),
+    )

@@ -12,7 +12,8 @@ from ..engineering.unit_systems import UnitSystem
 from ..errors import OutputError
 from ..model.ensemble.folder import RETRIED, EnsembleResult
 from ..model.study.file import Ensemble
-from ..report.units.quantities import ReportUnits
+from ..report.languages.table import ENGLISH
+from ..report.languages.translation import Translation
 from ..studies.engine import Engine, LocalProcesses, cores
 from ..studies.run_process import RunLimits
 from ..studies.session import EnsembleSession
@@ -65,8 +66,8 @@ def execute_ensemble(
             progress.finish()
     if not arguments.quiet:
         asked = arguments.units or ensemble.scenario.report.units or UnitSystem.METRIC
-        quantities = ReportUnits(UnitSystem(asked))
-        _print(session, map(quantities.text, sentences(result)), paths)
+        shown = Translation.into(ENGLISH, UnitSystem(asked)).text
+        _print(session, map(shown, sentences(result)), paths)
 
 
 def _run(ensemble: Ensemble, arguments: argparse.Namespace) -> tuple[EnsembleSession, EnsembleResult, list[Path]]:

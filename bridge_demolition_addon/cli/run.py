@@ -27,8 +27,10 @@ from ..model.sequence.checked_model import checked_model
 from ..model.sequence.ending import doubts_of_run, first_doubts
 from ..model.stages.stability import stability_texts
 from ..model.structure.model import Model
-from ..report.units.quantities import ReportUnits
+from ..report.languages.table import ENGLISH
+from ..report.languages.translation import Translation
 from ..system.progress import Progress
+from ..texts import Quantity, Text, distance_to_keep
 from .arguments import add_report_options, naming
 from .blender import simulation_module
 from .progress import progress_on
@@ -157,8 +159,8 @@ def _run_and_report(
             print(f"bda: {path}: {gone}", file=sys.stderr, flush=True)
     else:
         progress.finish()
-        quantities = ReportUnits(UnitSystem(arguments.units or scenario.report.units or UnitSystem.METRIC))
-        _print_results(summary, output, report, plain, quantities)
+        system = UnitSystem(arguments.units or scenario.report.units or UnitSystem.METRIC)
+        _print_results(summary, output, report, plain, Translation.into(ENGLISH, system))
 
 
 def run_with_everything(scenario: Scenario, output: Path, progress: Progress, *, quiet: bool) -> Mapping[str, Any]:
@@ -191,16 +193,16 @@ def _report(
 
 
 def _print_results(
-    summary: Mapping[str, Any], output: Path, report: Sequence[Path], plain: str, quantities: ReportUnits
+    summary: Mapping[str, Any], output: Path, report: Sequence[Path], plain: str, translation: Translation
 ) -> None:
     print()
     first = first_doubts(summary)
     others = doubts_of_run(summary)[len(first) :]
     for doubt in (*first, plain, *stability_texts(summary), *others):
         if doubt:
-            print(f"{quantities.text(doubt)}.\n")
+            print(f"{translation.text(doubt)}.\n")
     for name, value in _result_facts(summary):
-        print(f"{name:<24}{quantities.text(value, name)}")
+        print(f"{name:<24}{translation.text(value)}")
     results = [output / name for name in RESULT_FILES]
     _print_paths([*(path for path in results if path.exists() and path not in report), *report])
 
@@ -222,8 +224,9 @@ def _result_facts(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
         yield "largest use of bars", use
         yield "", "no margin: under an impact it depends on the length of sub-steps"
     if force:
+        largest = Quantity(kilonewtons(force["force_N"]), "kN")
         position = f"the resultant on {force['body']} at {force['time_s']:.3f} s"
-        yield "largest load on a shard", f"{kilonewtons(force['force_N'])} kN, {position}"
+        yield "largest load on a shard", Text("{}, {}", largest, position)
     if impact := summary["impact"]:
         yield "impact of the ball", f"{first_hit_s(summary):.3f} s, frame {impact['frame']}"
     creeping = creep_text(summary)
@@ -235,17 +238,23 @@ def _result_facts(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
     if moving := summary["moving_at_end"]:
         yield (
             "still moving",
-            f"{moving['shards']} of {moving['of_shards']} shards, at up to {moving['fastest_m_s']:.1f} m/s",
+            Text(
+                "{} of {} shards, at up to {}",
+                moving["shards"],
+                moving["of_shards"],
+                Quantity(moving["fastest_m_s"], "m/s", ".1f"),
+            ),
         )
     if throw := summary["largest_throw"]:
         so_far = ", not final: shards still moved" if moving else ""
-        yield "largest throw", f"{throw['throw_m']:.2f} m, {throw['body']}{so_far}"
+        yield "largest throw", Text("{}, {}{}", distance_to_keep(throw["throw_m"], ".2f"), throw["body"], so_far)
     if energy := summary["energy"]:
         made = energy["made_by_solver"]
         share = f"{made['share_of_dissipated']:.1%} of the dissipated energy"
         if by_bars_j := energy["dissipated_by_bars_J"]:
-            yield "work of bars", f"{by_bars_j / 1000.0:.1f} kJ of {energy['dissipated_J'] / 1000.0:.1f} kJ dissipated"
-        yield "energy made by solver", f"{made['J'] / 1000.0:.1f} kJ, {share}"
+            works = (Quantity(work_j / 1000.0, "kJ", ".1f") for work_j in (by_bars_j, energy["dissipated_J"]))
+            yield "work of bars", Text("{} of {} dissipated", *works)
+        yield "energy made by solver", Text("{}, {}", Quantity(made["J"] / 1000.0, "kJ", ".1f"), share)
         if doubtful := energy["doubtful_throws"]:
             yield "doubtful throws", f"{doubtful} shards, marked in debris_log.csv and summary.json"
     parts = (f"{name.replace('_', ' ')} {seconds:.1f}" for name, seconds in summary["wall_time_s"].items())

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..engineering.unit_systems import IMPERIAL, UnitSystem
 from .colour_scale import tick_text
-from .contour_quantities import BREAKS, ContourQuantity, Unit
+from .contour_quantities import BREAKS, ContourQuantity, ContourUnit
 from .contour_ranges import ContourScale, ContourSettings, RangeKind
 from .contours import ContourFrame
 
@@ -45,10 +45,10 @@ def colour_bar(settings: ContourSettings, frame: ContourFrame, units: UnitSystem
     )
 
 
-def _in_system(unit: Unit, units: UnitSystem) -> Unit:
+def _in_system(unit: ContourUnit, units: UnitSystem) -> ContourUnit:
     """Return a metric unit, or the one of another system for it, as large in SI units as its numbers need."""
     conversion = IMPERIAL.get(unit.name) if units is UnitSystem.IMPERIAL else None
-    return unit if conversion is None else Unit(conversion.unit, unit.size / conversion.factor)
+    return unit if conversion is None else ContourUnit(conversion.unit, unit.size / conversion.factor)
 
 
 def _what_is_shown(settings: ContourSettings) -> Iterator[str]:

@@ -14,7 +14,7 @@ from ..model.results.frames import Frame
 
 
 @dataclass(frozen=True, slots=True)
-class Unit:
+class ContourUnit:
     """A unit that keeps numbers short: values are divided by `size`."""
 
     name: str
@@ -25,23 +25,23 @@ class Unit:
 class UnitFamily:
     """The units of one kind of quantity, and that in which the user gives a fixed range."""
 
-    steps: tuple[tuple[float, Unit], ...]  # from the largest down, each with the value from which it is used
-    of_range: Unit
+    steps: tuple[tuple[float, ContourUnit], ...]  # from the largest down, each with the value from which it is used
+    of_range: ContourUnit
 
-    def of(self, largest: float) -> Unit:
+    def of(self, largest: float) -> ContourUnit:
         """Return the unit for values up to a largest magnitude, in SI."""
         return next((unit for least, unit in self.steps if largest >= least), self.steps[-1][1])
 
 
 _KILONEWTON, _NEWTON_PER_MM2, _MILLIMETRE, _PERCENT = (
-    Unit("kN", 1e3),
-    Unit("N/mm²", 1e6),
-    Unit("mm", 1e-3),
-    Unit("%", 0.01),
+    ContourUnit("kN", 1e3),
+    ContourUnit("N/mm²", 1e6),
+    ContourUnit("mm", 1e-3),
+    ContourUnit("%", 0.01),
 )
-FORCES = UnitFamily(((1e6, Unit("MN", 1e6)), (1e3, _KILONEWTON), (0.0, Unit("N", 1.0))), _KILONEWTON)
-STRESSES = UnitFamily(((1e4, _NEWTON_PER_MM2), (0.0, Unit("kPa", 1e3))), _NEWTON_PER_MM2)
-LENGTHS = UnitFamily(((1.0, Unit("m", 1.0)), (0.0, _MILLIMETRE)), _MILLIMETRE)
+FORCES = UnitFamily(((1e6, ContourUnit("MN", 1e6)), (1e3, _KILONEWTON), (0.0, ContourUnit("N", 1.0))), _KILONEWTON)
+STRESSES = UnitFamily(((1e4, _NEWTON_PER_MM2), (0.0, ContourUnit("kPa", 1e3))), _NEWTON_PER_MM2)
+LENGTHS = UnitFamily(((1.0, ContourUnit("m", 1.0)), (0.0, _MILLIMETRE)), _MILLIMETRE)
 RATIOS = UnitFamily(((0.0, _PERCENT),), _PERCENT)
 
 BREAKS = 1.0

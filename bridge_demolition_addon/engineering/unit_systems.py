@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from decimal import ROUND_DOWN, ROUND_HALF_EVEN, ROUND_UP, Decimal
 from enum import StrEnum
+from typing import Any, Self
 
 FOOT_M = Decimal("0.3048")
 INCH_M = FOOT_M / 12
@@ -48,6 +49,68 @@ class Rounding(StrEnum):
 
     DOWN = ROUND_DOWN
     """Towards zero."""
+
+
+NEAREST, UP, DOWN = Rounding
+
+
+class Unit(str):
+    """The symbol of a unit, such as in the heading of a column, and the side that numbers in it are rounded to."""
+
+    __slots__ = ("rounding",)
+
+    rounding: Rounding
+
+    def __new__(cls, symbol: str, rounding: Rounding = NEAREST) -> Self:
+        """Make it of its metric symbol."""
+        unit = super().__new__(cls, symbol)
+        unit.rounding = rounding
+        return unit
+
+    def __str__(self) -> str:
+        """Return itself."""
+        return self
+
+    def __getnewargs__(self) -> tuple[Any, ...]:
+        """Return what it is made of, for copies."""
+        return str.__str__(self), self.rounding
+
+
+class Quantity(str):
+    """A number with its unit, and the side that it is rounded to in other units.
+
+    `form` is Python's format of the number. Where several numbers share a unit that stands behind the last of them, the
+    others are not `shown` with it.
+    """
+
+    __slots__ = ("number", "rounding", "shown", "unit")
+
+    number: str
+    unit: str
+    rounding: Rounding
+    shown: bool
+
+    def __new__(
+        cls, value: float | str, unit: str, form: str = "", rounding: Rounding = NEAREST, *, shown: bool = True
+    ) -> Self:
+        """Write a number in a metric unit."""
+        number = format(value, form)
+        quantity = super().__new__(cls, f"{number} {unit}" if shown else number)
+        quantity.number, quantity.unit, quantity.rounding, quantity.shown = number, unit, rounding, shown
+        return quantity
+
+    def __str__(self) -> str:
+        """Return itself."""
+        return self
+
+    def __getnewargs_ex__(self) -> tuple[tuple[Any, ...], dict[str, Any]]:
+        """Return what it is made of, for copies."""
+        return (self.number, self.unit, "", self.rounding), {"shown": self.shown}
+
+
+def distance_to_keep(value: float | str, form: str = "") -> Quantity:
+    """Return a distance in m that people keep or debris may reach: it is never rounded down."""
+    return Quantity(value, "m", form, UP)
 
 
 @dataclass(frozen=True, slots=True)

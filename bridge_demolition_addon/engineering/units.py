@@ -3,6 +3,8 @@
 import math
 from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal
 
+from .unit_systems import Quantity
+
 STANDARD_GRAVITY_M_S2 = 9.80665
 """Standard acceleration of free fall, exact; 1 kgf is the weight of 1 kg under it."""
 
@@ -81,20 +83,20 @@ def rounded_down(value: float, step: str) -> str:
     return str(Decimal(f"{value:.9f}").quantize(Decimal(step), ROUND_FLOOR))
 
 
-def mass_text(mass_kg: float, decimals: int = 3, *, width: int = 0) -> str:
+def mass_text(mass_kg: float, decimals: int = 3, *, width: int = 0) -> Quantity:
     """Return a mass in t with so many decimals, below 1 t in kg; the number takes up a width at least."""
     if 0.0 < abs(mass_kg) < _KG_PER_T:
-        return f"{with_digits(mass_kg, 0):>{width}} kg"
-    return f"{with_digits(mass_kg / _KG_PER_T, decimals):>{width}} t"
+        return Quantity(with_digits(mass_kg, 0), "kg", f">{width}")
+    return Quantity(with_digits(mass_kg / _KG_PER_T, decimals), "t", f">{width}")
 
 
-def volume_text(volume_m3: float, decimals: int = 3, *, width: int = 0) -> str:
+def volume_text(volume_m3: float, decimals: int = 3, *, width: int = 0) -> Quantity:
     """Return a volume in m³ with so many decimals; the number takes up a width at least."""
-    return f"{with_digits(volume_m3, decimals):>{width}} m³"
+    return Quantity(with_digits(volume_m3, decimals), "m³", f">{width}")
 
 
-def kilograms(mass_kg: float) -> str:
+def kilograms(mass_kg: float) -> Quantity:
     """Return a mass in kg, large ones with blanks between thousands."""
     if abs(mass_kg) < _KG_PER_T:
-        return f"{with_digits(mass_kg, 0)} kg"
-    return f"{mass_kg:,.0f} kg".replace(",", " ")
+        return Quantity(with_digits(mass_kg, 0), "kg")
+    return Quantity(f"{mass_kg:,.0f}".replace(",", " "), "kg")

@@ -16,6 +16,7 @@ import numpy as np
 from ..engineering.geometry.turned_boxes import TurnedBox
 from ..engineering.ground_motion.record import GroundRecord
 from ..engineering.timing.timeline import Timeline, TimeStep
+from ..texts import Text
 from .as_built import Structure
 from .schema import Table
 
@@ -234,7 +235,7 @@ class PlannedAction(Table):
 
     def described(self) -> tuple[str, str]:
         """Return what it does and where, for the planned sequence of a report."""
-        return self.heading.lower(), ""
+        return Text(self.heading.lower()), ""
 
     def planned(self, plan: Plan) -> Iterator[PlannedStep]:
         """Yield its steps in the planned sequence."""
@@ -260,11 +261,6 @@ class PlannedAction(Table):
         """Check it against the model that was built of its scenario."""
 
 
-def counted(number: int, noun: str) -> str:
+def counted(number: int, noun: str) -> Text:
     """Return a number with a noun."""
-    return f"{number} {noun}{'' if number == 1 else 's'}"
-
-
-def point_text(position_m: Sequence[float]) -> str:
-    """Return a position in brackets, in m."""
-    return f"({', '.join(f'{value:g}' for value in position_m)}) m"
+    return Text(f"{{}} {noun}{'' if number == 1 else 's'}", number)

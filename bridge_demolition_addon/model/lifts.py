@@ -10,6 +10,7 @@ import numpy as np
 from ..engineering.mechanics.slings import rope_stiffness_n
 from ..engineering.units import mass_text
 from ..errors import ScenarioError
+from ..texts import Text
 from .actions import CutBox, Fact, HeightAt, Plan, PlannedAction, Point, Worksite
 from .as_built import Structure
 from .changes.removals import LiftingAway
@@ -55,11 +56,13 @@ class Pick:
         """Return that they differ, without a full stop; empty where they hardly do."""
         if abs(self.shards_kg - self.volume_kg) <= _MOST_OFF * self.volume_kg:
             return ""
-        return (
-            f"{self.lift} weighs {mass_text(self.volume_kg, 1)} by the volume in its box, but "
-            f"{mass_text(self.shards_kg, 1)} by the shards with their centres in it, which runs and stages lift: order "
-            "no crane by the smaller one. Members with fracture.points and steelwork are not cut along a box: take "
-            "these points out, or more pieces of steelwork"
+        return Text(
+            "{} weighs {} by the volume in its box, but {} by the shards with their centres in it, which runs and "
+            "stages lift: order no crane by the smaller one. Members with fracture.points and steelwork are not "
+            "cut along a box: take these points out, or more pieces of steelwork",
+            self.lift,
+            mass_text(self.volume_kg, 1),
+            mass_text(self.shards_kg, 1),
         )
 
 
@@ -157,7 +160,8 @@ class Lift(Part):
         )
 
     def described(self) -> tuple[str, str]:
-        return f"{self.name}: slings hold with {self.pretension:.0%}, then it is lifted away", self.where
+        what = Text("{}: slings hold with {}, then it is lifted away", self.name, f"{self.pretension:.0%}")
+        return what, self.where
 
     def facts(self, site: Worksite) -> Iterator[Fact]:
         part, pick = site.affected_by(self), site.pick_of(self)

@@ -10,7 +10,8 @@ import numpy as np
 from ..engineering.geometry.vectors import unit
 from ..engineering.mechanics.slings import rope_stiffness_n, stored_j
 from ..errors import ScenarioError
-from .actions import Fact, HeightAt, Plan, Point, Worksite, point_text
+from ..texts import Quantity, Text, point_text
+from .actions import Fact, HeightAt, Plan, Point, Worksite
 from .as_built import Structure
 from .loads.part import Acting, Part, PlacedLoad, nearest_of, unusual_force
 from .schema import POSITION, check_exactly_one, given, key
@@ -111,7 +112,8 @@ class Pull(Acting):
         return PlacedLoad(self, np.array([body]), np.ones(1), towards[None], arm_m[None])
 
     def described(self) -> tuple[str, str]:
-        return f"{self.name} pulls with up to {self.most_n / 1e3:g} kN", f"from {point_text(self.anchor_m)}"
+        what = Text("{} pulls with up to {}", self.name, Quantity(self.most_n / 1e3, "kN", "g"))
+        return what, Text("from {}", point_text(self.anchor_m))
 
     def facts(self, site: Worksite) -> Iterator[Fact]:
         how = f"{self.speed_m_s:g} m/s" if self.speed_m_s is not None else f"{given(self.growth_n_s) / 1e3:g} kN/s"

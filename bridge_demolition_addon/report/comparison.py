@@ -14,6 +14,7 @@ from ..model.results.collapse import collapse_progress
 from ..model.results.force_history import largest_on_a_shard
 from ..model.scenario import Ball
 from ..model.schema import given
+from ..texts import Quantity, Text, Unit, joined, point_text
 from .document.blocks import Block, Column, DataTable, Document, Paragraph, Picture, Section
 from .findings import findings
 from .run_folder import ReportedRun
@@ -27,12 +28,12 @@ def comparison(runs: Sequence[ReportedRun], version: str) -> Document:
     names = unique_names(runs)
     whole = [(name, run) for name, run in zip(names, runs, strict=True) if run.results is not None]
     notices = [
-        Paragraph(f"{name}: {text}", is_notice=True)
+        Paragraph(Text("{}: {}", name, text), is_notice=True)
         for name, run in zip(names, runs, strict=True)
-        for text in (*(f"{doubt}." for doubt in (run.first_doubts if run.results else ())), *run.shortcomings)
+        for text in (*(Text("{}.", doubt) for doubt in (run.first_doubts if run.results else ())), *run.shortcomings)
     ]
     if shared := shared_beginning(runs):
-        notices.append(Paragraph(f"The names of all folders begin with {shared}, which is left out here."))
+        notices.append(Paragraph(Text("The names of all folders begin with {}, which is left out here.", shared)))
     listed = [(name, run.title, _differences(run)) for name, run in zip(names, runs, strict=True)]
     columns = (Column("run", "run"), Column("scenario", "scenario"), Column("ball and charges", "means"))
     sections = [Section("The runs", (*notices, DataTable("runs", "Runs", columns, listed)))]
@@ -40,13 +41,15 @@ def comparison(runs: Sequence[ReportedRun], version: str) -> Document:
         debris = [(name, debris_of(run.recorded)) for name, run in whole]
         sections.append(Section("Findings", (_finding_table(whole, debris),)))
         sections.append(Section("Courses", tuple(_charts(whole, debris))))
-    return Document(f"Comparison of {len(runs)} runs", f"Bridge Demolition Add-on {version}", tuple(sections))
+    return Document(
+        Text("Comparison of {} runs", len(runs)), Text("Bridge Demolition Add-on {}", version), tuple(sections)
+    )
 
 
 def unique_names(runs: Sequence[ReportedRun]) -> list[str]:
     """Return the names of the runs without what they share, with numbers where two folders are called the same."""
     names = [run.name.removeprefix(shared_beginning(runs)) for run in runs]
-    return [f"{name} ({row + 1})" if names.count(name) > 1 else name for row, name in enumerate(names)]
+    return [Text("{} ({})", name, row + 1) if names.count(name) > 1 else name for row, name in enumerate(names)]
 
 
 def shared_beginning(runs: Sequence[ReportedRun]) -> str:
@@ -61,26 +64,27 @@ def shared_beginning(runs: Sequence[ReportedRun]) -> str:
 
 def _differences(run: ReportedRun) -> str:
     if run.scenario is None:
-        return "not known"
+        return Text("not known")
     ball, charges = run.scenario.ball, run.scenario.charges
     words = []
     if ball:
-        words.append(f"ball of {ball.mass_kg / 1e3:g} t {_way_of(ball)}")
+        mass, ways = Quantity(ball.mass_kg / 1e3, "t", "g"), _ways_of(ball)
+        words.append(Text("ball of {} {}", mass, joined("{}, then {}", ways)))
     if charges and run.scenario.blast.explosion:
-        count = "1 charge" if len(charges) == 1 else f"{len(charges)} charges"
-        words.append(f"{count}, {sum(charge.mass_kg for charge in charges):g} kg")
-    return "; ".join(words) or "no ball and no charges"
+        mass = Quantity(sum(charge.mass_kg for charge in charges), "kg", "g")
+        words.append(Text("1 charge, {}", mass) if len(charges) == 1 else Text("{} charges, {}", len(charges), mass))
+    return joined("{}; {}", words) or Text("no ball and no charges")
 
 
-def _way_of(ball: Ball) -> str:
+def _ways_of(ball: Ball) -> list[Text]:
     if ball.cable:
-        return f"on a cable of {ball.cable.length_m:g} m, drawn aside by {ball.cable.angle_degrees:g}°"
-    drops = (
-        f"from {drop.drop_height_m:g} m on ({along:g}, {across:g}) m"
+        length = Quantity(ball.cable.length_m, "m", "g")
+        return [Text("on a cable of {}, drawn aside by {}°", length, f"{ball.cable.angle_degrees:g}")]
+    return [
+        Text("from {} on {}", Quantity(given(drop.drop_height_m), "m", "g"), point_text((along, across)))
         for drop in ball.drops
         for along, across in [given(drop.target_m)]
-    )
-    return ", then ".join(drops)
+    ]
 
 
 def _finding_table(runs: Sequence[tuple[str, ReportedRun]], debris: Sequence[tuple[str, Debris]]) -> DataTable:
@@ -88,7 +92,7 @@ def _finding_table(runs: Sequence[tuple[str, ReportedRun]], debris: Sequence[tup
     columns = (
         Column("", "finding"),
         Column("unit", "unit"),
-        *(Column(name, name, ".5g", of_row=True) for name, _ in runs),
+        *(Column(Text("{}", name), name, ".5g", of_row=True) for name, _ in runs),
     )
     rows = [(same[0].label, same[0].unit, *(finding.value for finding in same)) for same in zip(*by_run, strict=True)]
     return DataTable("comparison", "Main findings", columns, rows)
@@ -106,14 +110,14 @@ def _charts(runs: Sequence[tuple[str, ReportedRun]], debris: Sequence[tuple[str,
         frames = run.recorded.frames
         loads.append((name, frames.time_s, largest_on_a_shard(run.recorded, frames.loads.body_peak_sums_n) / 1e3))
     charts = (
-        ("progress of the collapse (%)", progress),
-        ("connections cracked or torn (%)", broken),
-        ("largest load on a shard (kN)", loads),
+        (Text("progress of the collapse (%)"), progress),
+        (Text("connections cracked or torn (%)"), broken),
+        (Text("largest load on a shard ({})", Unit("kN")), loads),
     )
     blocks: list[Block] = [
-        Picture(partial(compared_histories, label=label, histories=histories), f"{label[0].upper()}{label[1:]}.")
+        Picture(partial(compared_histories, label=label, histories=histories), Text("{}.", label.capital))
         for label, histories in charts
         if histories
     ]
-    caption = "Debris at the end in plan, and the bridge before."
+    caption = Text("Debris at the end in plan, and the bridge before.")
     return [*blocks, Picture(partial(debris_maps, runs=debris), caption, debris_maps_height_mm(debris))]

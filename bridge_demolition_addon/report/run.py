@@ -22,10 +22,10 @@ from ..model.stages.standing import StandingBridge, made_elastic
 from ..model.stages.tables import write_tables as write_stage_tables
 from ..model.structure.zone_loads import ZoneLoad
 from ..system.progress import Progress
+from ..texts import Text
 from ..version import VERSION
 from .charge_areas import areas_of_fragments, cordon_area
 from .document.blocks import Document, Report, Section
-from .names import names_in_run
 from .run_folder import ReportedRun
 from .sections.blast import blast_section
 from .sections.charge_plan import charge_plan_section, flyrock_of, known_plan
@@ -40,7 +40,7 @@ from .sections.plan_contents import with_plan_contents
 from .sections.planned_sequence import sequence_section
 from .sections.pulls import pull_section
 from .sections.reinforcement import reinforcement_section
-from .sections.stages import has_stages, names_in_stages, stages_section
+from .sections.stages import has_stages, stages_section
 from .sections.summary import first_photo, run_summary
 from .sections.tendons import tendon_section
 from .single_pages import single_pages
@@ -64,8 +64,7 @@ def run_report(
     names = [path.name for path in plans]
     document = run_document(run, VERSION, zone, names, trajectories=trajectories, stages=with_stages)
     tables = () if zone is None else (corner_table(zone),)
-    kept = names_in_run(run) | (frozenset() if with_stages is None else names_in_stages(with_stages))
-    return Report(document, tables, tuple(plans), single_pages(document, run.scenario), kept, run.report_settings)
+    return Report(document, tables, tuple(plans), single_pages(document, run.scenario), run.report_settings)
 
 
 def run_document(
@@ -121,7 +120,7 @@ def run_document(
     sections += [run_section(run, version), trust_section(run.scenario, ONE_RUN)]
     if run.scenario:
         sections.append(scenario_section(run, scenario_text(run.scenario)))
-    subtitle = f"Report of a simulated demolition. Bridge Demolition Add-on {version}"
+    subtitle = Text("Report of a simulated demolition. Bridge Demolition Add-on {}", version)
     document = Document(run.title, subtitle, tuple(sections), run_summary(run, debris, flyrock))
     return with_plan_contents(document, run.scenario, RUN_TITLE)
 

@@ -33,6 +33,7 @@ from ..model.sequence.ending import Ending, undone_at_end
 from ..model.sequence.lifts import held_parts_text, pick_texts
 from ..model.sequence.undisturbed import self_collapse_text
 from ..system.reading import MEGABYTE, check_file
+from ..texts import Text
 
 MOST_PICTURE_BYTES = 100 * MEGABYTE
 
@@ -141,15 +142,18 @@ def read_run(folder: Path) -> ReportedRun:
     if summary:
         values = summary.values
         doubts = self_collapse_text(values), held_parts_text(values), *pick_texts(values), bare_bars_text(values)
-        shortcomings.extend(f"{doubt}." for doubt in doubts if doubt)
+        shortcomings.extend(Text("{}.", doubt) for doubt in doubts if doubt)
     if summary and summary.made_by_hand:
         shortcomings.append(
-            "The scene was changed in Blender after it was built. The scenario of the run does not hold these changes: "
-            f"{'; '.join(summary.made_by_hand)}."
+            Text(
+                "The scene was changed in Blender after it was built. The scenario of the run does not hold these "
+                "changes: {}.",
+                "; ".join(summary.made_by_hand),
+            )
         )
     logged: LoggedForces | None = _log(read_logged_forces, folder, shortcomings) if results is None else None
     if logged and logged.is_cut:
-        shortcomings.append(f"The last frame in {FORCE_LOG} is not whole, and is left out.")
+        shortcomings.append(Text("The last frame in {} is not whole, and is left out.", FORCE_LOG))
     scenario = _scenario(folder, shortcomings)
     return ReportedRun(
         folder=folder,
@@ -169,10 +173,13 @@ def _results(folder: Path, at_work: str | None, shortcomings: list[str]) -> Resu
     path = results_in(folder)
     if not path.exists():
         shortcomings.append(
-            f"{_still_at_work(at_work)} No frame is recorded yet."
+            Text("{} No frame is recorded yet.", _still_at_work(at_work))
             if at_work
-            else f"The run was killed before it could write {RESULTS_FILE}: only its logs are here. Debris, zones, "
-            "exclusion zone, spans, energy and stresses are left out."
+            else Text(
+                "The run was killed before it could write {}: only its logs are here. Debris, zones, exclusion "
+                "zone, spans, energy and stresses are left out.",
+                RESULTS_FILE,
+            )
         )
         return None
     try:
@@ -181,46 +188,60 @@ def _results(folder: Path, at_work: str | None, shortcomings: list[str]) -> Resu
     except OutputError as error:
         if path != results_in(folder):  # the run has ended meanwhile
             return _results(folder, None, shortcomings)
-        shortcomings.append(f"{path.name} cannot be read, and all that needs it is left out: {_reason(error, path)}.")
+        shortcomings.append(
+            Text("{} cannot be read, and all that needs it is left out: {}.", path.name, _reason(error, path))
+        )
         return None
     if path.name == FRAMES_FILE:
         shortcomings.append(
-            f"{_still_at_work(at_work)} {len(results.frames)} frames are recorded so far, and everything here ends "
-            "with the last of them."
+            Text(
+                "{} {} frames are recorded so far, and everything here ends with the last of them.",
+                _still_at_work(at_work),
+                len(results.frames),
+            )
             if at_work
-            else f"The run ended before its end, as by a kill, a crash or a full disk; {len(results.frames)} frames "
-            "are kept, and everything here ends with the last of them."
+            else Text(
+                "The run ended before its end, as by a kill, a crash or a full disk; {} frames are kept, and "
+                "everything here ends with the last of them.",
+                len(results.frames),
+            )
         )
     if removed:
         shortcomings.append(
-            f"{removed} shards were removed during the run, as the scenario says. They are left out of debris, masses, "
-            "loads and energies, also of the time before."
+            Text(
+                "{} shards were removed during the run, as the scenario says. They are left out of debris, "
+                "masses, loads and energies, also of the time before.",
+                removed,
+            )
         )
     return results
 
 
 def _still_at_work(writer: str) -> str:
-    return f"The run is still at work ({writer}): make the report again once it has ended."
+    return Text("The run is still at work ({}): make the report again once it has ended.", writer)
 
 
 def _reason(error: Exception, path: Path) -> str:
     """Return what an error says without the path at its beginning: a report is read elsewhere."""
-    return str(error).removeprefix(f"{path}: ")
+    return str(error).removeprefix(Text("{}: ", path))
 
 
 def _summary(folder: Path, shortcomings: list[str]) -> RunSummary | None:
     if not (folder / SUMMARY_FILE).exists():
         shortcomings.append(
-            f"There is no {SUMMARY_FILE}: the version of Blender is not known. Hits of the ball are worked out from "
-            "the frames that are here."
+            Text(
+                "There is no {}: the version of Blender is not known. Hits of the ball are worked out from the "
+                "frames that are here.",
+                SUMMARY_FILE,
+            )
         )
         return None
     try:
         return read_summary(folder)
     except OutputError as error:
-        shortcomings.append(f"{SUMMARY_FILE} is not what a run writes, and is left out: {error}.")
+        shortcomings.append(Text("{} is not what a run writes, and is left out: {}.", SUMMARY_FILE, error))
     except (UnreadableError, ValueError) as error:
-        shortcomings.append(f"{SUMMARY_FILE} cannot be read, and what it says is left out: {error}.")
+        shortcomings.append(Text("{} cannot be read, and what it says is left out: {}.", SUMMARY_FILE, error))
     return None
 
 
@@ -239,7 +260,7 @@ def _log(read: Callable[[Path], Any], folder: Path, shortcomings: list[str]) -> 
     try:
         return read(folder)
     except OutputError as error:
-        shortcomings.append(f"{error}.")
+        shortcomings.append(Text("{}.", error))
         return None
 
 
@@ -247,14 +268,17 @@ def _scenario(folder: Path, shortcomings: list[str]) -> Scenario | None:
     path = folder / SCENARIO_FILE
     if not path.is_file():
         shortcomings.append(
-            f"There is no {SCENARIO_FILE}, as for a scene that was built by hand: zones, exclusion zone, charges and "
-            "lengths of spans are not known."
+            Text(
+                "There is no {}, as for a scene that was built by hand: zones, exclusion zone, charges and "
+                "lengths of spans are not known.",
+                SCENARIO_FILE,
+            )
         )
         return None
     try:
         return read_scenario(path)
     except ScenarioError as error:
-        shortcomings.append(f"The scenario of the run cannot be read: {_reason(error, path)}.")
+        shortcomings.append(Text("The scenario of the run cannot be read: {}.", _reason(error, path)))
         return None
 
 
@@ -271,7 +295,7 @@ def pictures_in(folder: Path, shortcomings: list[str]) -> dict[str, Path]:
             check_file(path, MOST_PICTURE_BYTES)
             imread(path)
         except (UnreadableError, *_NO_PICTURE):
-            shortcomings.append(f"frames/{path.name} is no whole picture, and is left out.")
+            shortcomings.append(Text("{} is no whole picture, and is left out.", f"frames/{path.name}"))
         else:
             pictures[name] = path
     return pictures

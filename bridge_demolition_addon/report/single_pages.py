@@ -9,6 +9,7 @@ from ..engineering.units import mass_text
 from ..model.blast.blast_zones import ELECTRONIC
 from ..model.run_folder.files import SINGLE_PAGES
 from ..model.scenario import Ball, Scenario
+from ..texts import Text, Unit, joined
 from .document.blocks import Block, Column, DataTable, Document, Paragraph, facts
 from .sections.cover import limits_of
 from .wording.clearance import CORDON
@@ -28,9 +29,9 @@ _BLANK = "________"
 _LINE_FACTOR, _CRANE_FACTOR = 4.0, 2.0
 """29 CFR 1926.859(b): the ball weighs at most a quarter of the strength of its line, and half of the crane's load."""
 
-_PLANNED = (
-    "Times and distances are those of a simulation. The blaster and the one in charge of the demolition decide: this "
-    "page is no release."
+_PLANNED = Text(
+    "Times and distances are those of a simulation. The blaster and the one in charge of the demolition decide: "
+    "this page is no release."
 )
 
 
@@ -44,15 +45,17 @@ class CrewCheck:
 
 
 CHECKS = (
-    CrewCheck("Service lines are cut off or protected", "29 CFR 1926.850(c)"),
-    CrewCheck("The exclusion zone is clear of people; guards stand at all ways into it", "BS 6187:2011, 13"),
-    CrewCheck("Traffic is stopped on roads through the zone", "29 CFR 1926.909", True),
-    CrewCheck("Surplus explosives are in a safe place", "29 CFR 1926.909", True),
-    CrewCheck("Warning signal was given", "29 CFR 1926.909", True),
-    CrewCheck("Firing line is disconnected after the blast", "29 CFR 1926.910(a)", True),
-    CrewCheck("Blaster has looked for charges that did not fire", "29 CFR 1926.910(b)", True),
-    CrewCheck("All clear was given", "29 CFR 1926.909", True),
-    CrewCheck("Debris is at rest, and what still stands was looked at before anyone goes near", "29 CFR 1926.859(g)"),
+    CrewCheck(Text("Service lines are cut off or protected"), "29 CFR 1926.850(c)"),
+    CrewCheck(Text("The exclusion zone is clear of people; guards stand at all ways into it"), "BS 6187:2011, 13"),
+    CrewCheck(Text("Traffic is stopped on roads through the zone"), "29 CFR 1926.909", True),
+    CrewCheck(Text("Surplus explosives are in a safe place"), "29 CFR 1926.909", True),
+    CrewCheck(Text("Warning signal was given"), "29 CFR 1926.909", True),
+    CrewCheck(Text("Firing line is disconnected after the blast"), "29 CFR 1926.910(a)", True),
+    CrewCheck(Text("Blaster has looked for charges that did not fire"), "29 CFR 1926.910(b)", True),
+    CrewCheck(Text("All clear was given"), "29 CFR 1926.909", True),
+    CrewCheck(
+        Text("Debris is at rest, and what still stands was looked at before anyone goes near"), "29 CFR 1926.859(g)"
+    ),
 )
 """What the crew ticks, in order of time."""
 
@@ -60,9 +63,9 @@ CHECKS = (
 def single_pages(document: Document, scenario: Scenario | None) -> dict[str, Document]:
     """Return the single pages of a report, by whom they are for."""
     return {
-        CLIENT: replace(document, subtitle=_subtitle(document, "client"), sections=()),
-        AUTHORITY: _page(document, "authority", _for_authority(document, scenario)),
-        CREW: _page(document, "crew", _for_crew(document, scenario)),
+        CLIENT: replace(document, subtitle=_subtitle(document, "For the client. {}"), sections=()),
+        AUTHORITY: _page(document, "For the authority. {}", _for_authority(document, scenario)),
+        CREW: _page(document, "For the crew. {}", _for_crew(document, scenario)),
     }
 
 
@@ -71,7 +74,7 @@ def _page(document: Document, audience: str, blocks: Iterator[Block]) -> Documen
 
 
 def _subtitle(document: Document, audience: str) -> str:
-    return f"For the {audience}. {document.subtitle}"
+    return Text(audience, document.subtitle)
 
 
 def _for_authority(document: Document, scenario: Scenario | None) -> Iterator[Block]:
@@ -92,10 +95,13 @@ def _for_authority(document: Document, scenario: Scenario | None) -> Iterator[Bl
 def _caveats(document: Document, scenario: Scenario | None, doubts: Sequence[Paragraph]) -> Iterator[str]:
     """Yield what is to be doubted, what the model leaves out, and what the report does not answer."""
     if doubts:
-        yield f"On these results: {' '.join(block.text for block in doubts)}"
-    yield f"Not modelled: {' '.join(limits_of(scenario))}"
+        yield Text("On these results: {}", joined("{} {}", [block.text for block in doubts]))
+    yield Text("Not modelled: {}", joined("{} {}", limits_of(scenario)))
     if (contents := document.table("plan_contents")) is not None:
-        yield f"Blank in the contents of the plan: {', '.join(str(row[0]) for row in contents.rows if row[2] is None)}."
+        yield Text(
+            "Blank in the contents of the plan: {}.",
+            joined("{}, {}", [str(row[0]) for row in contents.rows if row[2] is None]),
+        )
 
 
 def _for_crew(document: Document, scenario: Scenario | None) -> Iterator[Block]:
@@ -124,24 +130,30 @@ def _first_words(document: Document) -> tuple[list[Paragraph], list[DataTable], 
 
 def _safety(scenario: Scenario | None, plan: Sequence[DataTable]) -> Iterator[tuple[str, str]]:
     if _has_cordon(scenario):
-        yield "Clear of people within", next(row[1] for table in plan for row in table.rows if row[0] == CORDON)
+        yield Text("Clear of people within"), next(row[1] for table in plan for row in table.rows if row[0] == CORDON)
     else:
-        yield "Clear of people within", f"{_BLANK} m of the bridge's plan: to be filled in by the engineer"
-    yield "Guards, and the one who gives the signal", f"{_BLANK}: to be filled in by the one in charge"
+        yield (
+            Text("Clear of people within"),
+            Text("{} {} of the bridge's plan: to be filled in by the engineer", _BLANK, Unit("m")),
+        )
+    yield Text("Guards, and the one who gives the signal"), Text("{}: to be filled in by the one in charge", _BLANK)
     if scenario and scenario.ball:
-        yield "Crane and line", _crane_text(scenario.ball)
+        yield Text("Crane and line"), _crane_text(scenario.ball)
     if scenario and _has_explosives(scenario):
         kinds = {zone.detonator for zone in scenario.blast_zones} | {cut.detonator for cut in scenario.cuts}
         electronic = ELECTRONIC in kinds
-        minutes = "30" if electronic else "15, or 30 with a fuse or electronic detonators"
+        minutes = "30" if electronic else Text("15, or 30 with a fuse or electronic detonators")
         yield (
-            "If a charge may not have fired",
+            Text("If a charge may not have fired"),
             (
-                f"wait at least {minutes} minutes, or as long as its maker says (30 CFR 56.6310, of mines); the law of "
-                "the site may ask for more. Only the blaster goes near (29 CFR 1926.911)"
+                Text(
+                    "wait at least {} minutes, or as long as its maker says (30 CFR 56.6310, of mines); the law "
+                    "of the site may ask for more. Only the blaster goes near (29 CFR 1926.911)",
+                    minutes,
+                )
             ),
         )
-    yield "No one goes near before", "debris is at rest, and what still stands was looked at"
+    yield Text("No one goes near before"), Text("debris is at rest, and what still stands was looked at")
 
 
 def _has_cordon(scenario: Scenario | None) -> bool:
@@ -150,16 +162,19 @@ def _has_cordon(scenario: Scenario | None) -> bool:
 
 def _crane_text(ball: Ball) -> str:
     own, crane, line = (mass_text(factor * ball.mass_kg, 1) for factor in (1.0, _CRANE_FACTOR, _LINE_FACTOR))
-    return (
-        f"ball of {own}: crane for at least {crane} with the boom as it is used, line that carries at least {line} "
-        "before it breaks (29 CFR 1926.859(b))"
+    return Text(
+        "ball of {}: crane for at least {} with the boom as it is used, line that carries at least {} before it "
+        "breaks (29 CFR 1926.859(b))",
+        own,
+        crane,
+        line,
     )
 
 
 def _checklist(scenario: Scenario | None) -> DataTable:
     """Return what is to be ticked, with blanks."""
     explosives = scenario is None or _has_explosives(scenario)
-    columns = tuple(Column(name, name, cites=name == "Source") for name in ("Check", "Source", "Name", "Time"))
+    columns = tuple(Column(name, name) for name in ("Check", "Source", "Name", "Time"))
     checks = [check for check in CHECKS if explosives or not check.only_with_explosives]
     return DataTable("", "To be ticked", columns, [(check.what, check.source, _BLANK, _BLANK) for check in checks])
 
@@ -173,5 +188,5 @@ def _shortened(table: DataTable) -> DataTable:
     left = len(table.rows) - _MOST_ROWS
     if left <= 0:
         return table
-    title = f"{table.title}: the first {_MOST_ROWS}; {left} more are in the report"
+    title = Text("{}: the first {}; {} more are in the report", table.title, _MOST_ROWS, left)
     return replace(table, title=title, rows=table.rows[:_MOST_ROWS])

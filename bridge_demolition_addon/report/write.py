@@ -6,7 +6,6 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import partial
-from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -48,17 +47,14 @@ from .ensemble.study import study_report
 from .ensemble.study_runs import read_study_runs
 from .languages.letters import NO_LETTERS, letters_of
 from .languages.table import ENGLISH, check_language
-from .languages.translated_report import notes_on_language, translated_document, with_notes
+from .languages.translated_report import notes_at_head, translated_document, with_notes
 from .languages.translation import Translation
-from .names import names_in_run, names_of
 from .run import run_report
 from .run_folder import ReportedRun, read_run
 from .sections.charge_plan import planned_section
 from .sections.stages import has_stages, stages_report
 from .site_plan import write_areas
 from .survey import survey_report, survey_rows
-from .units.measured_report import measured_document, notes_on_units
-from .units.quantities import ReportUnits
 
 
 @dataclass(frozen=True, slots=True)
@@ -188,13 +184,11 @@ def write_survey(
     progress.stage(f"reading the results, and {survey.name}")
     comparison, run = survey_beside_run(folder, survey, place, settings)
     with _written_to(output):
-        report = replace(
-            survey_report(comparison, run.name, survey), names=names_in_run(run), settings=run.report_settings
-        )
+        report = replace(survey_report(comparison, run.name, survey), settings=run.report_settings)
         extras = Extras(language=_checked_language(language), units=_checked_units(units))
         written = _written(report, output, progress, extras)
-    quantities = ReportUnits(extras.system_of(report), report.names)
-    return [(name, quantities.text(value, f"{name} {value}")) for name, value in survey_rows(comparison)], written
+    shown = Translation.into(ENGLISH, extras.system_of(report)).text
+    return [(name, shown(value)) for name, value in survey_rows(comparison)], written
 
 
 def survey_beside_run(
@@ -230,9 +224,8 @@ def _write_comparison(
             raise OutputError(f"{folder}: is the folder of a {kind.name}, whose report is made by itself")
     progress.stage(f"reading the results of {len(folders)} runs")
     runs = [read_run(folder) for folder in folders]
-    names = frozenset(chain.from_iterable(map(names_in_run, runs)))
     with _written_to(output):
-        report = Report(comparison(runs, VERSION), names=names, settings=runs[0].report_settings)
+        report = Report(comparison(runs, VERSION), settings=runs[0].report_settings)
         return _written(report, output, progress, extras)
 
 
@@ -249,7 +242,7 @@ def write_charge_plan(
     document = Document(scenario.title, subtitle, (section,))
     with _written_to(target):
         drawn = write_areas(areas, scenario.site, target / CHARGES_DXF, target / CHARGES_GEOJSON)
-        report = Report(document, files=tuple(drawn), names=names_of(scenario), settings=scenario.report)
+        report = Report(document, files=tuple(drawn), settings=scenario.report)
         extras = Extras(language=_checked_language(language), units=_checked_units(units))
         written = _written(report, target, progress, extras)
         book = target / PLAN_WORKBOOK
@@ -289,7 +282,7 @@ def _written_to(target: Path) -> Iterator[None]:
 
 
 def _written(report: Report, target: Path, progress: Progress, extras: Extras = NO_EXTRAS) -> list[Path]:
-    translation = Translation.into(extras.language_of(report), report.names)
+    translation = Translation.into(extras.language_of(report), extras.system_of(report))
     with letters_of(translation.table) as can_draw:
         written = _written_in(report, translation, can_draw, target, progress, extras)
     if not can_draw:
@@ -302,15 +295,11 @@ def _written_in(
 ) -> list[Path]:
     """Write a report in a language; without letters to draw it, only what needs none, with drawings in English."""
     progress.stage("drawing the pictures")
-    quantities = ReportUnits(extras.system_of(report), report.names, translation.unit)
     english = [report.document, *(report.single_pages[audience] for audience in extras.pages)]
-    document, *pages = (measured_document(translated_document(each, translation), each, quantities) for each in english)
-    on_drawings = translation if can_draw else Translation.into(ENGLISH)
-    drawn = drawings(
-        (document, *pages), lambda done, total: progress.part(done, total, "pictures drawn"), on_drawings, quantities
-    )
-    of_units = [translation.text(note) for note in notes_on_units(quantities.system)]
-    if notes := [*of_units, *notes_on_language(translation, can_draw)]:
+    document, *pages = (translated_document(each, translation) for each in english)
+    on_drawings = translation if can_draw else Translation.into(ENGLISH, translation.system)
+    drawn = drawings((document, *pages), lambda done, total: progress.part(done, total, "pictures drawn"), on_drawings)
+    if notes := notes_at_head(translation, can_draw):
         document, pages = with_notes(document, notes), [with_notes(page, notes) for page in pages]
     tables = [*report.document.named_tables(), *report.tables]
     names = [f"{TABLE_FOLDER}/{table.name}.csv" for table in tables]

@@ -21,7 +21,6 @@ from bridge_demolition_addon.report.ensemble.document import doubts_of
 from bridge_demolition_addon.report.ensemble.summary import study_summary
 from bridge_demolition_addon.report.languages.translated_report import translated_document
 from bridge_demolition_addon.report.languages.translation import Translation
-from bridge_demolition_addon.report.names import names_in_run
 from bridge_demolition_addon.report.run_folder import read_run
 from bridge_demolition_addon.report.sections.charge_plan import charge_plan_section, flyrock_of, known_plan
 from bridge_demolition_addon.report.sections.cover import findings_section
@@ -147,7 +146,7 @@ def test_every_page_of_a_run_begins_with_its_doubts_and_sets_the_cordon_against_
         first = findings.blocks[0]
         assert isinstance(first, Paragraph) == bool(ending or moves or made > 0.05)
         assert not isinstance(first, Paragraph) or first == document.summary[0]
-        german = Translation.into("de", names_in_run(run))
+        german = Translation.into("de")
         translated_document(document, german)
         assert german.missing == []
 

@@ -16,7 +16,6 @@ from support.stage_folders import with_stages
 from support.study_folders import told_runs
 
 from bridge_demolition_addon.cli.progress import Silence
-from bridge_demolition_addon.model.reinforcement.concrete_members import named_members
 from bridge_demolition_addon.model.scenario import Equipment, Exclusion, MemberCut, Removal, Scenario, Weakening
 from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.model.schema import given
@@ -25,7 +24,6 @@ from bridge_demolition_addon.report.document.blocks import Document, Report, Sec
 from bridge_demolition_addon.report.ensemble.optimise import optimise_report, read_candidates
 from bridge_demolition_addon.report.ensemble.search import read_answer, search_report
 from bridge_demolition_addon.report.ensemble.study import study_report
-from bridge_demolition_addon.report.names import names_in_run, names_of
 from bridge_demolition_addon.report.run import run_report
 from bridge_demolition_addon.report.run_folder import read_run
 from bridge_demolition_addon.report.sections.charge_plan import planned_section
@@ -79,8 +77,7 @@ def reports(folder: Path) -> Iterator[Report]:
     yield _of_section(planned_section(severed), severed)
     for by_rule in (scenario_by_rule(bridge()), scenario_by_rule(bridge(None))):
         yield _of_section(reinforcement_section(by_rule), by_rule)
-    of_stages = stages_report(with_stages(folder / "stages"), folder, Silence())
-    yield replace(of_stages, names=of_stages.names | {"pier <1>"})  # which its table of members does not have
+    yield stages_report(with_stages(folder / "stages"), folder, Silence())
     for number, options in enumerate(({}, {"there": 60}, {"ends": {17: "crashed", 60: "timed_out"}})):
         (target := folder / f"study {number}").mkdir()
         yield study_report(told_runs(**options), target, Silence())
@@ -106,8 +103,7 @@ def _of_runs(folder: Path) -> Iterator[Report]:
     for run in runs:
         yield run_report(run, run.folder, Silence(), trajectories=True)
     side_by_side = runs[:2]
-    names = frozenset().union(*map(names_in_run, side_by_side))
-    yield Report(comparison(side_by_side, "0"), names=names)
+    yield Report(comparison(side_by_side, "0"))
 
 
 def _run(folder: Path, scenario: Scenario) -> Path:
@@ -118,5 +114,4 @@ def _run(folder: Path, scenario: Scenario) -> Path:
 
 
 def _of_section(section: Section | None, scenario: Scenario) -> Report:
-    members = {member.name for member in named_members(scenario)}
-    return Report(Document(scenario.title, "", (given(section),)), names=names_of(scenario) | members)
+    return Report(Document(scenario.title, "", (given(section),)))

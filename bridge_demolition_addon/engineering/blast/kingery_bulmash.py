@@ -27,7 +27,7 @@ from ..arrays import FloatArray
 from .wave import SOUND_SPEED_M_S, Burst, Wave
 
 
-class Quantity(StrEnum):
+class WaveQuantity(StrEnum):
     """Quantity in the tables, by its name there; those of a `Wave` come first, in its order."""
 
     PEAK_OVERPRESSURE = "incident_overpressure"
@@ -43,10 +43,10 @@ _SI = {"kPa": 1e3, "kPa ms/kg^(1/3)": 1.0, "ms/kg^(1/3)": 1e-3, "km/s": 1e3}
 """The tables' units in Pa, Pa·s/kg^(1/3), s/kg^(1/3) and m/s."""
 
 _FALLING_AS_SOUND = {
-    Quantity.PEAK_OVERPRESSURE,
-    Quantity.REFLECTED_OVERPRESSURE,
-    Quantity.INCIDENT_IMPULSE,
-    Quantity.REFLECTED_IMPULSE,
+    WaveQuantity.PEAK_OVERPRESSURE,
+    WaveQuantity.REFLECTED_OVERPRESSURE,
+    WaveQuantity.INCIDENT_IMPULSE,
+    WaveQuantity.REFLECTED_IMPULSE,
 }
 
 _LN_10 = 2.302585092994045684
@@ -61,7 +61,7 @@ class _Piece:
     value_at: Formula
 
 
-def evaluate(quantity: Quantity, scaled_distance: FloatArray, burst: Burst = Burst.AIR) -> FloatArray:
+def evaluate(quantity: WaveQuantity, scaled_distance: FloatArray, burst: Burst = Burst.AIR) -> FloatArray:
     """Return one quantity for 1 kg of TNT at scaled distances of any shape (m/kg^(1/3)), in Pa, Pa·s, s or m/s."""
     pieces = _tables()[burst][quantity]
     nearest, farthest = pieces[0].nearest, pieces[-1].farthest
@@ -75,32 +75,32 @@ def evaluate(quantity: Quantity, scaled_distance: FloatArray, burst: Burst = Bur
     if quantity in _FALLING_AS_SOUND:
         falling: FloatArray = values * within / np.maximum(z, within)
         return falling
-    if quantity is Quantity.ARRIVAL_TIME:
+    if quantity is WaveQuantity.ARRIVAL_TIME:
         return values + np.maximum(z - farthest, 0.0) / SOUND_SPEED_M_S
     return values
 
 
 def unit_wave(scaled_distance: FloatArray, burst: Burst = Burst.AIR) -> Wave:
     """Return the wave of 1 kg of TNT at scaled distances of any shape, m/kg^(1/3)."""
-    of_wave = [quantity for quantity in Quantity if quantity is not Quantity.SHOCK_FRONT_VELOCITY]
+    of_wave = [quantity for quantity in WaveQuantity if quantity is not WaveQuantity.SHOCK_FRONT_VELOCITY]
     return Wave(*(evaluate(quantity, scaled_distance, burst) for quantity in of_wave))
 
 
 @cache
-def _tables() -> Mapping[Burst, Mapping[Quantity, list[_Piece]]]:
+def _tables() -> Mapping[Burst, Mapping[WaveQuantity, list[_Piece]]]:
     return {
         Burst.AIR: _read("kingery_bulmash_spherical.csv", _power_of_ten),
         Burst.SURFACE: _read("kingery_bulmash_hemispherical.csv", _power_of_e),
     }
 
 
-def _read(name: str, value_of: Callable[[Mapping[str, str], float], Formula]) -> Mapping[Quantity, list[_Piece]]:
+def _read(name: str, value_of: Callable[[Mapping[str, str], float], Formula]) -> Mapping[WaveQuantity, list[_Piece]]:
     # Named from here, as the package has another name inside Blender.
     here = resources.files(__package__)
     pieces = defaultdict(list)
     for row in csv.DictReader((here / "data" / name).read_text(encoding="utf-8").splitlines()):
         piece = _Piece(float(row["z_min"]), float(row["z_max"]), value_of(row, _SI[row["unit"]]))
-        pieces[Quantity(row["quantity"])].append(piece)
+        pieces[WaveQuantity(row["quantity"])].append(piece)
     return pieces
 
 

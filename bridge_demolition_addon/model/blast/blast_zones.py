@@ -15,7 +15,8 @@ from ...engineering.drilled_charges.drill_holes import charge_length_m, hole_cap
 from ...engineering.drilled_charges.specific_charge import THROW_KG_M3, DrilledElement
 from ...engineering.geometry.vectors import AXES, SIDES
 from ...errors import ScenarioError
-from ..actions import CutPlane, Fact, Plan, PlannedAction, PlannedStep, Worksite, counted
+from ...texts import Quantity, Text
+from ..actions import CutPlane, Fact, Plan, PlannedAction, PlannedStep, Worksite
 from ..changes.zone_firings import ZoneFiring
 from ..schema import POSITION, SHARE, SIZE, given, key, shown
 from .charges import LARGEST_CHARGE_KG, MS_PER_S
@@ -275,9 +276,10 @@ class BlastZone(PlannedAction):
         yield from site.firings_of(self)
 
     def described(self) -> tuple[str, str]:
-        rows = "a row" if self.rows == 1 else f"{self.rows} rows"
-        holes = f"{rows}, {self.holes} holes, {self.mass_kg:.3g} kg of {self.explosive}"
-        return f"{self.name} fires: {holes}", self.member
+        holes = self.holes, Quantity(self.mass_kg, "kg", ".3g"), Text(self.explosive)
+        if self.rows == 1:
+            return Text("{} fires: a row, {} holes, {} of {}", self.name, *holes), self.member
+        return Text("{} fires: {} rows, {} holes, {} of {}", self.name, self.rows, *holes), self.member
 
     def planned(self, plan: Plan) -> Iterator[PlannedStep]:
         """Yield it with its end as planned, without what detonators scatter."""
@@ -289,7 +291,10 @@ class BlastZone(PlannedAction):
     def means(cls, actions: Sequence[Self]) -> str:
         mass_kg = math.fsum(zone.mass_kg for zone in actions)
         last_ms = MS_PER_S * max(zone.row_times_s()[-1] for zone in actions)
-        return f"{counted(len(actions), cls.noun)} with {mass_kg:.3g} kg in drill holes, fired within {last_ms:.0f} ms"
+        one = "{} blast zone with {} in drill holes, fired within {} ms"
+        more = "{} blast zones with {} in drill holes, fired within {} ms"
+        many = len(actions)
+        return Text(one if many == 1 else more, many, Quantity(mass_kg, "kg", ".3g"), f"{last_ms:.0f}")
 
     def facts(self, site: Worksite) -> Iterator[Fact]:
         yield from site.facts_of_zone(self)

@@ -8,7 +8,8 @@ from typing import ClassVar, Self
 from ...engineering.arithmetic import cube_root
 from ...engineering.blast.wave import Burst
 from ...errors import BlastError, ScenarioError
-from ..actions import Fact, Plan, PlannedAction, Worksite, counted, point_text
+from ...texts import Quantity, Text, point_text
+from ..actions import Fact, Plan, PlannedAction, Worksite
 from ..schema import POSITION, given, key
 
 SWISDAK = "air blast; Swisdak, NSWC/WOL/TR 75-116 (1975), as in TM 5-855-1 and UFC 3-340-02"
@@ -117,13 +118,15 @@ class Charge(PlannedAction):
         return plan.detonation_s(self.delay_s)
 
     def described(self) -> tuple[str, str]:
-        return f"{self.name} detonates: {self.mass_kg:.3g} kg of {self.explosive}, bare", point_text(self.position_m)
+        charge = self.name, Quantity(self.mass_kg, "kg", ".3g"), Text(self.explosive)
+        return Text("{} detonates: {} of {}, bare", *charge), point_text(self.position_m)
 
     @classmethod
     def means(cls, actions: Sequence[Self]) -> str:
         charges = [charge for charge in actions if charge.mass_kg > 0.0]
         mass_kg = math.fsum(charge.mass_kg for charge in charges)
-        return f"{counted(len(charges), cls.noun)} with {mass_kg:.3g} kg" if charges else ""
+        pattern = "{} bare charge with {}" if len(charges) == 1 else "{} bare charges with {}"
+        return Text(pattern, len(charges), Quantity(mass_kg, "kg", ".3g")) if charges else ""
 
     def facts(self, site: Worksite) -> Iterator[Fact]:
         position = ", ".join(f"{value:g}" for value in self.position_m)
@@ -136,16 +139,22 @@ class Charge(PlannedAction):
         if self.mass_kg == 0.0:
             return
         if inside := site.member_within(self.position_m, _POINT_M):
-            yield f"{self.name} lies in {inside}: it counts as a bare charge in air; [[blast_zones]] have drill holes"
+            in_air = "{} lies in {}: it counts as a bare charge in air; [[blast_zones]] have drill holes"
+            yield Text(in_air, self.name, inside)
         away_m, curves_m = (
             site.distance_to_bridge_m(self.position_m),
             _FARTHEST_SCALED_M * float(cube_root(self.tnt_kg)),
         )
         if away_m > curves_m:
-            beyond = f"beyond {curves_m:.0f} m its blast hardly loads anything"
-            yield f"{self.name} is {away_m:.0f} m from the bridge: {beyond}"
+            yield Text(
+                "{} is {} from the bridge: beyond {} its blast hardly loads anything",
+                self.name,
+                Quantity(away_m, "m", ".0f"),
+                Quantity(curves_m, "m", ".0f"),
+            )
         if (deep_m := self._depth_m(site)) > _POINT_M:
-            yield f"{self.name} lies {deep_m:.3g} m below the ground: it counts as a bare charge in air"
+            depth = Quantity(deep_m, "m", ".3g")
+            yield Text("{} lies {} below the ground: it counts as a bare charge in air", self.name, depth)
 
     def _depth_m(self, site: Worksite) -> float:
         """Return how far it lies below the ground, which may be none."""

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from ...engineering.geometry.vectors import AXES
+from ...texts import Quantity, Text
 from ..actions import CutPlane, Fact, Plan, PlannedAction, Worksite
 from ..changes.saw_cuts import Severing
 from ..schema import POSITION, SHARE, key, shown
@@ -90,7 +91,7 @@ class MemberCut(PlannedAction):
         return Severing(time_s=time_s, members=(self.member,), point_m=point_m, normal=normal)
 
     def described(self) -> tuple[str, str]:
-        return f"{self.name} severs a member: {self.mass_kg:.3g} kg", self.member
+        return Text("{} severs a member: {}", self.name, Quantity(self.mass_kg, "kg", ".3g")), self.member
 
     def facts(self, site: Worksite) -> Iterator[Fact]:
         begins_s = self.begins_s(site.plan)

@@ -7,6 +7,7 @@ import numpy as np
 
 from ...engineering.blast.charge_sizing import stand_off_for_overpressure
 from ...engineering.blast.pulses import BlastModel
+from ...texts import Text
 from .charges import Charge
 
 CLANCEY = "Clancey, 6th International Meeting of Forensic Sciences, Edinburgh (1972)"
@@ -23,15 +24,15 @@ class Threshold:
 
 
 THRESHOLDS = (
-    Threshold("typical glass breakage", 1.03e3, CLANCEY),
-    Threshold("safe distance: 95 % no serious damage", 2.07e3, CLANCEY),
-    Threshold("windows usually shattered, from here on", 3.4e3, CLANCEY),
-    Threshold("houses made uninhabitable", 6.9e3, CLANCEY),
-    Threshold("lower limit of serious structural damage", 15.8e3, CLANCEY),
-    Threshold("eardrum rupture, 1 %", 34.5e3, RICHMOND),
-    Threshold("houses nearly destroyed, from here on", 34.5e3, CLANCEY),
-    Threshold("probable total destruction of buildings", 68.9e3, CLANCEY),
-    Threshold("eardrum rupture, 50 %", 103e3, RICHMOND),
+    Threshold(Text("typical glass breakage"), 1.03e3, CLANCEY),
+    Threshold(Text("safe distance: 95 % no serious damage"), 2.07e3, CLANCEY),
+    Threshold(Text("windows usually shattered, from here on"), 3.4e3, CLANCEY),
+    Threshold(Text("houses made uninhabitable"), 6.9e3, CLANCEY),
+    Threshold(Text("lower limit of serious structural damage"), 15.8e3, CLANCEY),
+    Threshold(Text("eardrum rupture, 1 %"), 34.5e3, RICHMOND),
+    Threshold(Text("houses nearly destroyed, from here on"), 34.5e3, CLANCEY),
+    Threshold(Text("probable total destruction of buildings"), 68.9e3, CLANCEY),
+    Threshold(Text("eardrum rupture, 50 %"), 103e3, RICHMOND),
 )
 """Thresholds in order of overpressure. They come from waves of large charges: those of some kilograms are shorter and
 do less, so that the stand-offs are on the safe side for them. Of eardrums Richmond et al. also report rupture from some

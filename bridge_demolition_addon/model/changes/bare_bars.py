@@ -10,6 +10,7 @@ import numpy as np
 
 from ...engineering.geometry.vectors import AXES
 from ...engineering.mechanics.strength import NEWTON_PER_SQUARE_MILLIMETRE
+from ...texts import Text, joined
 from ..schema import given
 
 if TYPE_CHECKING:
@@ -108,7 +109,9 @@ def bare_bars_text(summary: Mapping[str, Any]) -> str:
     }
     if not used:
         return ""
-    return (
-        f"Bare bars of {', '.join(used)} held though they were pressed with up to {max(used.values()):.2f} times what "
-        "may be counted on (EN 1993-1-1, curve c): bars of a run are straight, so that those of the bridge may fold"
+    return Text(
+        "Bare bars of {} held though they were pressed with up to {} times what may be counted on (EN 1993-1-1, "
+        "curve c): bars of a run are straight, so that those of the bridge may fold",
+        joined("{}, {}", used),
+        f"{max(used.values()):.2f}",
     )

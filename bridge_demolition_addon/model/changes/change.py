@@ -8,6 +8,7 @@ import numpy as np
 
 from ...engineering.elasticity.tendons import CutTendon
 from ...errors import ScenarioError
+from ...texts import Text
 from ..actions import Fact, Plan, Worksite
 from ..as_built import Structure
 from ..loads.part import Part
@@ -76,7 +77,7 @@ class Change(Part):
         yield self
 
     def described(self) -> tuple[str, str]:
-        return self.kind, self.where or "everywhere"
+        return Text(self.kind), self.where or Text("everywhere")
 
     @property
     def step(self) -> str:

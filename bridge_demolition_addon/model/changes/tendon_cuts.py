@@ -9,6 +9,7 @@ import numpy as np
 
 from ...engineering.elasticity.tendons import CutTendon
 from ...errors import ScenarioError
+from ...texts import Text, joined
 from ..actions import Fact, Worksite
 from ..as_built import Structure, TendonLines
 from ..schema import given, key
@@ -36,7 +37,8 @@ class TendonCut(Change):
         self.event(site.structure)
 
     def described(self) -> tuple[str, str]:
-        return f"{self.kind}: {', '.join(self.tendons or ('all',))}", self.where or "at their anchorages"
+        tendons = joined("{}, {}", self.tendons or (Text("all"),))
+        return Text("{}: {}", Text(self.kind), tendons), self.where or Text("at their anchorages")
 
     def event(self, structure: Structure) -> Event:
         cuts = tuple(self._cuts(structure.tendons)) if structure.tendons else ()

@@ -5,6 +5,7 @@ from typing import ClassVar
 
 import numpy as np
 
+from ...texts import Text
 from ..as_built import Structure
 from ..schema import key
 from .change import Change, Event
@@ -24,7 +25,8 @@ class Weakening(Change):
     factor: float = key("Part of the strength, or of the breaking force, that is left.", above=0, at_most=1)
 
     def described(self) -> tuple[str, str]:
-        return f"weakening to {100.0 * self.factor:g} % of the strength", self.where or "everywhere"
+        what = Text("weakening to {} % of the strength", f"{100.0 * self.factor:g}")
+        return what, self.where or Text("everywhere")
 
     def event(self, structure: Structure) -> Event:
         connections = np.flatnonzero(self._connections(structure))

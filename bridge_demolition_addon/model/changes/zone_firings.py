@@ -10,6 +10,7 @@ import numpy as np
 from ...engineering.drilled_charges.specific_charge import Effect
 from ...engineering.geometry.vectors import AXES
 from ...errors import ScenarioError
+from ...texts import Text, joined
 from ..as_built import Structure
 from ..schema import key
 from .bare_bars import standing_bars
@@ -62,7 +63,7 @@ class ZoneFiring(Change):
 
     @property
     def step(self) -> str:
-        return f"{self.name} of {', '.join(self.members or ())}: {self.effect}"
+        return Text("{} of {}: {}", self.name, joined("{}, {}", self.members or ()), Text(self.effect))
 
     def recorded(self) -> Mapping[str, Any]:
         return {

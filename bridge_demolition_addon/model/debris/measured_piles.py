@@ -5,15 +5,21 @@ R. S. J. Sparks and M. A. Hallworth (2004), Axisymmetric collapses of granular c
 175-199. `scripts/validate collapsing_column` makes the figures.
 """
 
+from ...texts import Text
+
 RUNOUT = 0.55, 0.73
 """Runout by that of the law, smallest and largest of eight columns, rounded down and up."""
 
 HEIGHT = 0.89, 1.12
 """The same of the height of the pile."""
 
-PILES_NOTE = (
-    f"Columns of loose blocks run out {RUNOUT[0]:g} to {RUNOUT[1]:g} times as far in this model as measured ones of "
-    f"grains, and their piles are {HEIGHT[0]:g} to {HEIGHT[1]:g} times as high: loose rubble may spread farther than "
-    "is shown here"
+PILES_NOTE = Text(
+    "Columns of loose blocks run out {} to {} times as far in this model as measured "
+    "ones of grains, and their piles are {} to {} times as high: loose rubble may spread "
+    "farther than is shown here",
+    f"{RUNOUT[0]:g}",
+    f"{RUNOUT[1]:g}",
+    f"{HEIGHT[0]:g}",
+    f"{HEIGHT[1]:g}",
 )
 """What a report says of it."""

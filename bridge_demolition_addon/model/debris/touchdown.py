@@ -21,6 +21,7 @@ from numpy.typing import ArrayLike
 from ...engineering.arithmetic import cube_root, power
 from ...engineering.geometry.vectors import distance
 from ...engineering.units import STANDARD_GRAVITY_M_S2
+from ...texts import Text
 from ..results.arrays import Results
 from ..results.motion import relative_to_ground
 
@@ -137,11 +138,11 @@ class VibrationLimit:
 
 
 LIMITS = (
-    VibrationLimit("sensitive or listed buildings", 0.003, "DIN 4150-3, table 1, 1 to 10 Hz"),
-    VibrationLimit("dwellings", 0.005, "DIN 4150-3, table 1, 1 to 10 Hz"),
-    VibrationLimit("unreinforced or light framed buildings, cosmetic damage", 0.015, "BS 7385-2, at 4 Hz"),
-    VibrationLimit("industrial buildings", 0.020, "DIN 4150-3, table 1, 1 to 10 Hz"),
-    VibrationLimit("reinforced or framed buildings, cosmetic damage", 0.050, "BS 7385-2, from 4 Hz on"),
+    VibrationLimit(Text("sensitive or listed buildings"), 0.003, Text("DIN 4150-3, table 1, 1 to 10 Hz")),
+    VibrationLimit(Text("dwellings"), 0.005, Text("DIN 4150-3, table 1, 1 to 10 Hz")),
+    VibrationLimit(Text("unreinforced or light framed buildings, cosmetic damage"), 0.015, Text("BS 7385-2, at 4 Hz")),
+    VibrationLimit(Text("industrial buildings"), 0.020, Text("DIN 4150-3, table 1, 1 to 10 Hz")),
+    VibrationLimit(Text("reinforced or framed buildings, cosmetic damage"), 0.050, Text("BS 7385-2, from 4 Hz on")),
 )
 """Velocities that foundations resist in a short shaking of low frequency, the lowest first.
 

@@ -6,6 +6,7 @@ from typing import ClassVar, Self
 
 from ...engineering.units import STANDARD_GRAVITY_M_S2
 from ...errors import ScenarioError
+from ...texts import Text
 from ..actions import Fact, Plan, PlannedAction, Worksite
 from ..schema import Table, check_exactly_one, key
 
@@ -113,11 +114,11 @@ class GroundMotion(PlannedAction):
         return self.start_s
 
     def described(self) -> tuple[str, str]:
-        return "the ground moves", ""
+        return Text("the ground moves"), ""
 
     @classmethod
     def means(cls, actions: Sequence[Self]) -> str:
-        return "motion of the ground"
+        return Text("motion of the ground")
 
     def facts(self, site: Worksite) -> Iterator[Fact]:
         record = site.plan.ground_record

@@ -12,6 +12,7 @@ import numpy as np
 
 from ...engineering.units import STANDARD_GRAVITY_M_S2, mass_text
 from ...errors import ScenarioError
+from ...texts import Quantity, Text
 from ..actions import Fact, Plan, Worksite
 from ..as_built import Structure
 from ..schema import key, shown
@@ -95,7 +96,7 @@ class Load(SizedLoad):
         return self.force_n(start_s + step_s / 2.0)
 
     def described(self) -> tuple[str, str]:
-        return f"load of up to {max(self.forces_n) / 1e3:g} kN", self.where
+        return Text("load of up to {}", Quantity(max(self.forces_n) / 1e3, "kN", "g")), self.where
 
     def facts(self, site: Worksite) -> Iterator[Fact]:
         steps = zip(self.times_s, self.forces_n, strict=True)

@@ -11,6 +11,7 @@ from ...engineering.geometry.turned_boxes import TurnedBox
 from ...engineering.geometry.vectors import distance, length
 from ...engineering.units import STANDARD_GRAVITY_M_S2
 from ...errors import ScenarioError
+from ...texts import Text
 from ..actions import PlannedAction, Point, Worksite
 from ..as_built import Structure
 from ..schema import key
@@ -158,7 +159,7 @@ def unusual_force(name: str, force_n: float, site: Worksite) -> Iterator[str]:
     """Yield that a force is far above the weight of the bridge, if it is."""
     weights = force_n / (site.mass_kg * STANDARD_GRAVITY_M_S2)
     if weights > _UNUSUAL_WEIGHTS:
-        yield f"{name} is {weights:.3g} times the weight of the bridge (is it in N?)"
+        yield Text("{} is {} times the weight of the bridge (is it in N?)", name, f"{weights:.3g}")
 
 
 def nearest_of(bodies: np.ndarray, point_m: Point, structure: Structure) -> tuple[int, np.ndarray]:

@@ -13,7 +13,8 @@ from ...engineering.geometry.mesh import triangle_areas_and_normals
 from ...engineering.geometry.vectors import distance, dot, unit
 from ...engineering.units import STANDARD_GRAVITY_M_S2, mass_text
 from ...errors import ScenarioError
-from ..actions import Fact, Plan, PlannedAction, Worksite, point_text
+from ...texts import Quantity, Text, point_text
+from ..actions import Fact, Plan, PlannedAction, Worksite
 from ..as_built import Structure
 from ..schema import key, shown
 from .part import Part, PlacedLoad, SizedLoad, unusual_force
@@ -133,7 +134,7 @@ class Pressure(Part):
         )
 
     def described(self) -> tuple[str, str]:
-        return f"{self.name}: pressure of up to {self.largest_kpa:g} kPa", self.where
+        return Text("{}: pressure of up to {}", self.name, Quantity(self.largest_kpa, "kPa", "g")), self.where
 
     def facts(self, site: Worksite) -> Iterator[Fact]:
         pressed, faces = site.affected_by(self), self.faces(site)

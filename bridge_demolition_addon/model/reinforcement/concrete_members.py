@@ -6,6 +6,7 @@ from collections.abc import Iterable, Sequence
 from typing import Protocol
 
 from ...engineering.mechanics.strength import Strength
+from ...texts import Text, joined
 from ..bridge.substructure import substructure
 from ..bridge.superstructure import superstructure
 from ..materials.materials import strengths
@@ -72,9 +73,11 @@ def plain_concrete_text(scenario: Scenario) -> str:
     if is_meant or not (plain := plain_concrete(scenario)):
         return ""
     table = "bridge.reinforcement" if scenario.bridge else "geometry_reinforcement"
-    return (
-        f"no reinforcing bars in {', '.join(plain)}: what cracks there falls apart, as concrete with bars does not; "
-        f"[{table}] or [[reinforcement]] gives them"
+    return Text(
+        "no reinforcing bars in {}: what cracks there falls apart, as concrete with bars "
+        "does not; [{}] or [[reinforcement]] gives them",
+        joined("{}, {}", plain),
+        table,
     )
 
 

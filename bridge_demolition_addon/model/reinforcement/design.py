@@ -9,6 +9,7 @@ from ...engineering.mechanics.strength import NEWTON_PER_SQUARE_MILLIMETRE
 from ...engineering.reinforced_concrete.least_areas import USUAL_LARGEST_SHARE
 from ...engineering.reinforced_concrete.materials import Concrete
 from ...errors import ScenarioError
+from ...texts import Text
 from ..bridge.member import Member
 from ..materials.bar_layers import BarLayer
 from ..materials.materials import strengths
@@ -53,9 +54,9 @@ def bar_schedule(scenario: Scenario, members: Sequence[Member]) -> Schedule:
     other = {member.name for member in members if not is_concrete(scenario, member)}
     if rules_of_bars(scenario):
         if left_out:
-            notes.append(f"[[reinforcement]] replaces the rule for {', '.join(sorted(left_out))}")
+            notes.append(Text("[[reinforcement]] replaces the rule for {}", ", ".join(sorted(left_out))))
         if other:
-            notes.append(f"not of concrete, and without bars: {', '.join(sorted(other))}")
+            notes.append(Text("not of concrete, and without bars: {}", ", ".join(sorted(other))))
     return Schedule(tuple(bars), tuple(links), tuple(notes)).without(left_out | other)
 
 

@@ -24,6 +24,7 @@ from ...engineering.reinforced_concrete.shear import Links, links, links_along_m
 from ...engineering.reinforced_concrete.traffic import Traffic
 from ...engineering.units import STANDARD_GRAVITY_M_S2
 from ...errors import ScenarioError
+from ...texts import Quantity, Text
 from ..bridge.member import Member
 from ..materials.bar_layers import BarLayer
 from ..scenario import Bridge
@@ -161,7 +162,8 @@ class BarDesign:
                 f"{self.concrete.deepest_neutral_axis:g}; {advice}"
             )
         least = self.of_beam_m2(width_m, effective) if least_m2 is None else least_m2(effective)
-        required, reason = for_moment.area_m2, f"M_Ed = {moment_nm / _KILO:.0f} kN·m"
+        reason: str
+        required, reason = for_moment.area_m2, Text("{} = {}", "M_Ed", Quantity(moment_nm / _KILO, "kN·m", ".0f"))
         if least > required:
             required, reason = least, LEAST
         if required > LARGEST_SHARE * width_m * shape.height_m:
@@ -256,12 +258,15 @@ class BarDesign:
                     f"{names[0]} cannot carry its design shear of {shear_n / _KILO:.0f} kN with any links: its struts "
                     f"carry V_Rd,max = {struts_n(width_m, depth_m, self.concrete, 1.0) / _KILO:.0f} kN at 45°; {advice}"
                 )
-            needed, reason = found, f"V_Ed = {shear_n / _KILO:.0f} kN"
+            needed, reason = found, Text("{} = {}", "V_Ed", Quantity(shear_n / _KILO, "kN", ".0f"))
             if least > found.area_m2_m:
                 needed, reason = Links(least, found.cot_strut), LEAST
         along = links_along_m2_m(shear_n, depth_m, self.design_yield_pa) if has_slab else 0.0
         if along > needed.area_m2_m:
-            needed, reason = Links(along, needed.cot_strut), f"V_Ed = {shear_n / _KILO:.0f} kN along the slab"
+            needed, reason = (
+                Links(along, needed.cot_strut),
+                Text("V_Ed = {} along the slab", Quantity(shear_n / _KILO, "kN", ".0f")),
+            )
         most = min(0.75 * depth_m, 0.6 if is_slab else 0.3)  # 9.2.2 (6)
         apart = 1.5 * depth_m if is_slab else min(0.75 * depth_m, _MOST_LEGS_APART_M)  # 9.3.2 (5) and 9.2.2 (8)
         legs = max(2 * webs, webs * (1 + int(np.ceil((width_m / webs - 2.0 * self.rule.cover_m) / apart - 1e-9))))

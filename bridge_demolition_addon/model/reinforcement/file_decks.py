@@ -13,6 +13,7 @@ from ...engineering.reinforced_concrete.bending import PressedShape, flange_widt
 from ...engineering.reinforced_concrete.influence_lines import InfluenceLines, MovingLoad, influence_lines
 from ...engineering.reinforced_concrete.least_areas import SECONDARY_SHARE
 from ...engineering.reinforced_concrete.traffic import Traffic, lever_rule, strip_widths_m
+from ...texts import Text
 from ..bridge.own_axes import own_axes
 from .beam_effects import BeamEffects, beam_effects
 from .design_basis import LEAST, Tension
@@ -162,7 +163,9 @@ def _across(
     share = SECONDARY_SHARE * main.required_m2 / width_m * length_m
     outside = main.depth_m + 0.5 * main.choice.diameter_m
     if moment_nm <= 0.0:
-        return design.least_bars(name, height_m, length_m, share, outside, f"{SECONDARY_SHARE:.0%} of the main bars")
+        return design.least_bars(
+            name, height_m, length_m, share, outside, Text("{} of the main bars", f"{SECONDARY_SHARE:.0%}")
+        )
     shape = PressedShape.rectangle(height_m, length_m)
 
     def needed(of_moment_nm: float) -> Tension:
@@ -367,5 +370,7 @@ def _slab_on_girders(
         yield design.scheduled([name], kind, side, "y", across, section_m2=slab * length, length_m=width)
         share = SECONDARY_SHARE * across.required_m2 / length * width
         outside = across.depth_m + 0.5 * across.choice.diameter_m
-        along = design.least_bars(name, slab, width, share, outside, f"{SECONDARY_SHARE:.0%} of the main bars")
+        along = design.least_bars(
+            name, slab, width, share, outside, Text("{} of the main bars", f"{SECONDARY_SHARE:.0%}")
+        )
         yield design.scheduled([name], kind, side, "x", along, section_m2=slab * width, length_m=length)

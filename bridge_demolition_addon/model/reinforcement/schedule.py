@@ -12,6 +12,7 @@ import numpy as np
 from ...engineering.geometry.vectors import AXES
 from ...engineering.reinforced_concrete.least_areas import BarChoice
 from ...engineering.reinforced_concrete.materials import STEEL_DENSITY_KG_M3
+from ...texts import Quantity, Text
 from ..actions import Fact
 from ..bridge.member import Member
 from ..materials.bar_layers import BarLayer
@@ -63,20 +64,38 @@ class ScheduledBars:
     @property
     def where(self) -> str:
         if self.layer.is_spread:
-            return f"spread along {self.layer.along}"
-        between = "" if self.layer.from_m is None else f", {self.layer.from_m:.1f} to {self.layer.to_m:.1f} m"
-        return f"{self.layer.side} at {_MM * given(self.layer.depth_m):.0f} mm, along {self.layer.along}{between}"
+            return Text("spread along {}", self.layer.along)
+        between = (
+            ""
+            if self.layer.from_m is None
+            else Text(
+                ", {} to {}",
+                Quantity(self.layer.from_m, "m", ".1f", shown=False),
+                Quantity(given(self.layer.to_m), "m", ".1f"),
+            )
+        )
+        return Text(
+            "{} at {}, along {}{}",
+            self.layer.side,
+            Quantity(_MM * given(self.layer.depth_m), "mm", ".0f"),
+            self.layer.along,
+            between,
+        )
 
     @property
     def bars_text(self) -> str:
         if self.layer.is_spread:
-            return "both faces"
+            return Text("both faces")
         if self.choice is None:
-            return "by ratio"
-        bars = f"{self.choice.number} Ø{_MM * self.choice.diameter_m:g}"
+            return Text("by ratio")
+        bars = Text("{} Ø{}", self.choice.number, f"{_MM * self.choice.diameter_m:g}")
         if self.choice.rows > 1:
-            return f"{bars} in {self.choice.rows} rows"
-        return bars if math.isnan(self.choice.spacing_m) else f"{bars} / s = {_MM * self.choice.spacing_m:.0f} mm"
+            return Text("{} in {} rows", bars, self.choice.rows)
+        return (
+            bars
+            if math.isnan(self.choice.spacing_m)
+            else Text("{} / s = {}", bars, Quantity(_MM * self.choice.spacing_m, "mm", ".0f"))
+        )
 
     @property
     def members(self) -> tuple[str, ...]:
@@ -123,8 +142,10 @@ class ScheduledLinks:
     @property
     def bars_text(self) -> str:
         if not self.diameter_m:
-            return "by ratio"
-        return f"{self.legs} legs Ø{_MM * self.diameter_m:g} / s = {_MM * self.spacing_m:.0f} mm"
+            return Text("by ratio")
+        return Text(
+            "{} legs Ø{} / s = {}", self.legs, f"{_MM * self.diameter_m:g}", Quantity(_MM * self.spacing_m, "mm", ".0f")
+        )
 
     def of_members(self, names: tuple[str, ...]) -> ScheduledLinks:
         """Return the same of other members."""
@@ -180,7 +201,7 @@ def _without(rows: Sequence[_Row], names: Collection[str]) -> Iterator[_Row]:
 
 def named_text(row: ScheduledBars | ScheduledLinks) -> str:
     """Return the members of a row, by kind where it has several."""
-    return row.members[0] if len(row.members) == 1 else f"{len(row.members)} × {row.kind}"
+    return row.members[0] if len(row.members) == 1 else Text("{} × {}", len(row.members), Text(row.kind))
 
 
 def row_text(row: ScheduledBars | ScheduledLinks) -> str:
@@ -188,7 +209,7 @@ def row_text(row: ScheduledBars | ScheduledLinks) -> str:
     if isinstance(row, ScheduledBars):
         area = f"{row.where}: {_MM2 * row.area_m2:.0f} mm²"
     else:
-        area = f"links: {row.link_area_mm2_per_m:.0f} mm²/m"
+        area = Text("links: {}", Quantity(row.link_area_mm2_per_m, "mm²/m", ".0f"))
     return f"{area}, {row.bars_text}, {row.ratio:.2%}, {row.utilisation:.0%} used, {row.reason}"
 
 
@@ -212,13 +233,26 @@ def steel_facts(members: Sequence[Member], schedule: Schedule) -> Iterator[Fact]
     """Yield the steel of each kind of member by its concrete."""
     concrete_m3, steel_kg = 0.0, 0.0
     for kind, mass_kg, volume_m3 in schedule.masses(members):
-        yield f"steel of {kind}", f"{mass_kg:.0f} kg in {volume_m3:.1f} m³ of concrete, {mass_kg / volume_m3:.0f} kg/m³"
+        yield (
+            Text("steel of {}", kind),
+            Text(
+                "{} in {} of concrete, {}",
+                Quantity(mass_kg, "kg", ".0f"),
+                Quantity(volume_m3, "m³", ".1f"),
+                Quantity(mass_kg / volume_m3, "kg/m³", ".0f"),
+            ),
+        )
         concrete_m3, steel_kg = concrete_m3 + volume_m3, steel_kg + mass_kg
     if concrete_m3:
         yield (
-            "steel of all",
-            f"{steel_kg:.0f} kg, {steel_kg / concrete_m3:.0f} kg/m³; "
-            f"usual in decks are {USUAL_KG_M3[0]} to {USUAL_KG_M3[1]} kg/m³",
+            Text("steel of {}", Text("all")),
+            Text(
+                "{}, {}; usual in decks are {} to {}",
+                Quantity(steel_kg, "kg", ".0f"),
+                Quantity(steel_kg / concrete_m3, "kg/m³", ".0f"),
+                Quantity(USUAL_KG_M3[0], "kg/m³", shown=False),
+                Quantity(USUAL_KG_M3[1], "kg/m³"),
+            ),
         )
 
 

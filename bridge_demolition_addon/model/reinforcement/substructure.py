@@ -23,6 +23,7 @@ from ...engineering.reinforced_concrete.least_areas import (
     upright_of_wall_m2,
 )
 from ...engineering.reinforced_concrete.materials import PERMANENT_FACTOR, VARIABLE_FACTOR
+from ...texts import Quantity, Text
 from ..bridge.member import Member
 from ..scenario.bridge_parts import PierCaps, Piers
 from ..schema import given
@@ -236,7 +237,13 @@ def _bars_of_column(
                     f"it would need more than {LARGEST_SHARE:.0%} of its section of {length:g} × {width:g} m in bars; "
                     "take thicker or more columns"
                 )
-            text = f"N_Ed = {axial_n / _KILO:.0f} kN, M_Ed = {moment / _KILO:.0f} kN·m"
+            text = Text(
+                "{} = {}, {} = {}",
+                "N_Ed",
+                Quantity(axial_n / _KILO, "kN", ".0f"),
+                "M_Ed",
+                Quantity(moment / _KILO, "kN·m", ".0f"),
+            )
             pairs.append((needed, text) if needed > least * share else (least * share, "least area"))
             per_side = 0.5 * pairs[-1][0]
             most = (1 + int(max(room - diameter, 0.0) / (diameter + clear_m(diameter)))) * bar_area_m2(diameter)
@@ -285,7 +292,16 @@ def _wall(basis: DesignBasis, member: Member, length_m: float, width_m: float, k
                 "a larger bridge.piers.column_length_m"
             )
         if needed > upright:
-            upright, reason = needed, f"N_Ed = {axial_n / _KILO:.0f} kN, M_Ed = {moment / _KILO:.0f} kN·m"
+            upright, reason = (
+                needed,
+                Text(
+                    "{} = {}, {} = {}",
+                    "N_Ed",
+                    Quantity(axial_n / _KILO, "kN", ".0f"),
+                    "M_Ed",
+                    Quantity(moment / _KILO, "kN·m", ".0f"),
+                ),
+            )
     level = level_of_wall_m2(upright / width_m, length_m) * height
     inside = outside + basis.secondary_m
     of_upright = basis.least_bars(member.name, length_m, width_m, 0.5 * upright, inside, reason)

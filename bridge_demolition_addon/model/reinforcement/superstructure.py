@@ -16,6 +16,7 @@ from ...engineering.reinforced_concrete.influence_lines import (
 )
 from ...engineering.reinforced_concrete.least_areas import SECONDARY_SHARE, BarChoice
 from ...engineering.reinforced_concrete.traffic import lever_rule, strip_widths_m
+from ...texts import Text
 from ..bridge.layout import deck_ends, pier_axes
 from ..bridge.member import Member
 from ..schema import given
@@ -199,7 +200,9 @@ def _secondary(
     """
     area = SECONDARY_SHARE * main.required_m2 / main_width_m * width_m
     outside = main.depth_m + 0.5 * main.choice.diameter_m
-    found = basis.least_bars(name, height_m, width_m, area, outside, f"{SECONDARY_SHARE:.0%} of the main bars")
+    found = basis.least_bars(
+        name, height_m, width_m, area, outside, Text("{} of the main bars", f"{SECONDARY_SHARE:.0%}")
+    )
     depth = None if depth_from is None else depth_from - found.depth_m
     return basis.scheduled(
         [name],

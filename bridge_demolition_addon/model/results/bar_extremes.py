@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from ...engineering.elasticity.crack_state import ALL_RUPTURED, AT_YIELD, FrameCracks
+from ...texts import Text, joined
 from .inventory import Inventory
 
 
@@ -110,7 +111,10 @@ class BarExtremes:
     def _kinds(self) -> np.ndarray:
         """Kinds of members (m,) that the connections are in, or of both where they are between two."""
         pairs = np.append(self._inventory.body_member_kinds.astype(object), "")[self._inventory.pairs]
-        return np.array([first if first == second else f"{first} and {second}" for first, second in pairs], object)
+        return np.array(
+            [first if first == second else Text("{} and {}", Text(first), Text(second)) for first, second in pairs],
+            object,
+        )
 
 
 def members_of(inventory: Inventory, rows: np.ndarray) -> list[tuple[str, str]]:
@@ -135,7 +139,11 @@ def largest_use_text(summary: Mapping[str, Any]) -> str:
     largest = bars and bars["largest_use"]
     if not largest:
         return ""
-    members = " and ".join(dict.fromkeys(filter(None, (largest["first_member"], largest["second_member"]))))
-    return (
-        f"{largest['share']:.0%} of the rupture strain at {largest['time_s']:.3f} s, {members}, {largest['connection']}"
+    members = dict.fromkeys(filter(None, (largest["first_member"], largest["second_member"])))
+    return Text(
+        "{} of the rupture strain at {} s, {}, {}",
+        f"{largest['share']:.0%}",
+        f"{largest['time_s']:.3f}",
+        joined("{} and {}", members),
+        largest["connection"],
     )

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from ...engineering.geometry.vectors import distance, dot, length
+from ...texts import Quantity, Text
 from .arrays import Results
 from .collapse import REST_SPEED_M_S
 from .motion import relative_to_ground
@@ -93,12 +94,21 @@ def creep_text(summary: Mapping[str, Any]) -> str:
     if not creeping:
         return ""
     fastest = creeping["fastest"][0]
-    is_one = creeping["shards"] == 1
-    creep = "shard creeps" if is_one else "shards creep"
-    they = "it neither rests nor falls" if is_one else "they neither rest nor fall"
-    of_member = f" of {fastest['member']}" if fastest["member"] else ""
-    return (
-        f"{creeping['shards']} {creep} at the end, by up to {1000.0 * fastest['speed_m_s']:.0f} mm/s "
-        f"({fastest['body']}{of_member}, {1000.0 * fastest['moved_m']:.0f} mm from where it was): {they}. "
-        "Simulate for longer to see whether more comes down"
+    body = fastest["body"]
+    if fastest["member"]:
+        body = Text("{} of {}", body, fastest["member"])
+    return Text(
+        (
+            "{} shard creeps at the end, by up to {} ({}, {} from where it was): it neither rests nor falls. Simulate "
+            "for longer to see whether more comes down"
+        )
+        if creeping["shards"] == 1
+        else (
+            "{} shards creep at the end, by up to {} ({}, {} from where it was): they neither rest nor fall. "
+            "Simulate for longer to see whether more comes down"
+        ),
+        creeping["shards"],
+        Quantity(1000.0 * fastest["speed_m_s"], "mm/s", ".0f"),
+        body,
+        Quantity(1000.0 * fastest["moved_m"], "mm", ".0f"),
     )

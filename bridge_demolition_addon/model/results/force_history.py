@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...engineering.geometry.vectors import length
+from ...texts import Text
 from .arrays import Results
 
 
@@ -117,8 +118,15 @@ def breaking_by_kind(results: Results) -> list[BreakingByKind]:
         of_kind = kinds == kind
         of_torn = None if torn is None else torn[:, of_kind].sum(axis=1)
         broken = (~intact[:, of_kind]).sum(axis=1)
-        by_kind.append(BreakingByKind(str(kind), int(of_kind.sum()), broken, of_torn))
+        by_kind.append(BreakingByKind(_kind_text(str(kind)), int(of_kind.sum()), broken, of_torn))
     return sorted(by_kind, key=lambda breaking: -breaking.count)
+
+
+def _kind_text(kind: str) -> Text:
+    first, _, second = kind.partition(" - ")
+    if second:
+        return Text("{} - {}", Text(first), Text(second))
+    return Text("within {}", Text(kind.removeprefix("within "))) if kind.startswith("within ") else Text(kind)
 
 
 def _kinds(results: Results) -> np.ndarray:

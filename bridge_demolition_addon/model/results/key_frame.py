@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...engineering.geometry.vectors import length
+from ...texts import Text
 from .arrays import Results
 from .motion import first_hit
 
@@ -24,18 +25,18 @@ def key_step(results: Results, gravity_m_s2: np.ndarray) -> tuple[int, str]:
     frames = results.frames
     impact = impact_step(results, gravity_m_s2)
     if impact is not None:
-        return impact, "At the impact of the ball"
+        return impact, Text("At the impact of the ball")
     loaded = np.flatnonzero(frames.blast_impulses_ns.any(axis=(1, 2)))
     if len(loaded):
         after = np.searchsorted(frames.time_s, frames.time_s[loaded[-1]] + _FLYING_S)
-        return min(int(after), len(frames.time_s) - 1), "Shortly after the blast"
+        return min(int(after), len(frames.time_s) - 1), Text("Shortly after the blast")
     broken = (~frames.intact).sum(axis=1)
     if len(broken) and broken[-1]:
         half = int(np.argmax(broken >= broken[-1] / 2.0))
-        return half, "When half of the connections that broke had broken"
+        return half, Text("When half of the connections that broke had broken")
     forces = frames.loads.body_peak_sums_n[:, results.inventory.of_kind("shard")]
     largest = np.where(np.isfinite(forces), forces, 0.0).max(axis=1, initial=0.0)
-    return int(largest.argmax()), "At the largest force"
+    return int(largest.argmax()), Text("At the largest force")
 
 
 def impact_step(results: Results, gravity_m_s2: np.ndarray) -> int | None:

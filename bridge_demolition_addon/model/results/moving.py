@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from ...engineering.geometry.vectors import length
+from ...texts import UP, Quantity, Text
 from .arrays import Results
 from .collapse import REST_SPEED_M_S
 from .motion import relative_to_ground
@@ -60,31 +61,48 @@ def moving_text(summary: Mapping[str, Any]) -> str:
     moving = summary.get("moving_at_end")
     if not moving:
         return ""
-    move = "moves" if moving["shards"] == 1 else "move"
-    longer = ". Let the run last longer: time.duration_s" if summary.get("completed", True) else ""
+    one = moving["shards"] == 1
+    text = Text(
+        "{} of {} shards still moves at the end, at up to {} ({}): throws and debris distances are not final"
+        if one
+        else "{} of {} shards still move at the end, at up to {} ({}): throws and debris distances are not final",
+        moving["shards"],
+        moving["of_shards"],
+        Quantity(moving["fastest_m_s"], "m/s", ".1f"),
+        moving["body"],
+    )
     # All together rested by their energy: only another limit lets such a run go on.
     if summary.get("came_to_rest_s") is not None:
-        longer = ". As a whole it rests; a lower time.rest_speed_m_s, or no time.stop_at_rest, lets the run go on"
-    return (
-        f"{moving['shards']} of {moving['of_shards']} shards still {move} at the end, at up to "
-        f"{moving['fastest_m_s']:.1f} m/s ({moving['body']}): throws and debris distances are not final{longer}"
-    )
+        rests = "{}. As a whole it rests; a lower time.rest_speed_m_s, or no time.stop_at_rest, lets the run go on"
+        return Text(rests, text)
+    if summary.get("completed", True):
+        return Text("{}. Let the run last longer: time.duration_s", text)
+    return text
 
 
 def gone_text(summary: Mapping[str, Any]) -> str:
     """Return that shards flew as no debris does, as a sentence without a full stop; empty where none did."""
     throw, moving = summary.get("largest_throw"), summary.get("moving_at_end")
     if throw and throw["throw_m"] > FARTHEST_THROW_M:
-        how = f"{throw['body']} flew {throw['throw_m'] / 1000.0:.1f} km"
-    elif moving and moving["fastest_m_s"] > LARGEST_SPEED_M_S:
-        how = f"{moving['body']} still moves at {moving['fastest_m_s']:.0f} m/s"
-    else:
-        return ""
-    return f"This run is not to be used: {how}, as no part of a bridge does; look for what gave it that energy"
+        far = Quantity(throw["throw_m"] / 1000.0, "km", ".1f", UP)
+        return Text(
+            "This run is not to be used: {} flew {}, as no part of a bridge does; look for what gave it that energy",
+            throw["body"],
+            far,
+        )
+    if moving and moving["fastest_m_s"] > LARGEST_SPEED_M_S:
+        fast = Quantity(moving["fastest_m_s"], "m/s", ".0f")
+        return Text(
+            "This run is not to be used: {} still moves at {}, as no part of a bridge does; look for what gave it "
+            "that energy",
+            moving["body"],
+            fast,
+        )
+    return ""
 
 
 def still_moving_note(results: Results) -> str:
     """Return the words that go with every throw of a run whose shards still moved; empty where all rested."""
     moving = moving_of(results)
     count = len(results.inventory.of_kind("shard"))
-    return f"not final: {len(moving)} of {count} shards still moved" if len(moving) else ""
+    return Text("not final: {} of {} shards still moved", len(moving), count) if len(moving) else ""

@@ -9,6 +9,7 @@ import numpy as np
 
 from ...engineering.geometry.vectors import dot
 from ...engineering.units import STANDARD_GRAVITY_M_S2
+from ...texts import Text
 from .arrays import Results
 from .motion import MOVED_M, throw
 
@@ -146,9 +147,11 @@ def much_made_text(share: float) -> str:
     """Return that the solver made much energy, as a sentence without a full stop; empty for little."""
     if share <= LARGE_SHARE:
         return ""
-    return (
-        f"This run is not to be used for distances: the solver made {100.0 * share:.1f} % of what was dissipated, more "
-        f"than {100.0 * LARGE_SHARE:g} %, and debris may be thrown too far"
+    return Text(
+        "This run is not to be used for distances: the solver made {} % of what was "
+        "dissipated, more than {} %, and debris may be thrown too far",
+        f"{100.0 * share:.1f}",
+        f"{100.0 * LARGE_SHARE:g}",
     )
 
 

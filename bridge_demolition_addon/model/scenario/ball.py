@@ -13,7 +13,8 @@ from ...engineering.geometry.vectors import length, points_along
 from ...engineering.timing.timeline import Timeline
 from ...engineering.units import STANDARD_GRAVITY_M_S2, mass_text
 from ...errors import GeometryError, ScenarioError
-from ..actions import Fact, HeightAt, Place, Plan, PlannedAction, PlannedStep, Point, Worksite, point_text
+from ...texts import Quantity, Text, point_text
+from ..actions import Fact, HeightAt, Place, Plan, PlannedAction, PlannedStep, Point, Worksite
 from ..schema import FARTHEST_M, POSITION, SHARE, SIZE, Table, expected, given, key
 from .contacts import BALL, FRICTION, OWN_VALUE, RESTITUTION, BodyInContact
 
@@ -263,19 +264,21 @@ class Ball(_Drop, BodyInContact, PlannedAction):
             yield self.cable.crane_point_m
 
     def planned(self, plan: Plan) -> Iterator[PlannedStep]:
-        what = f"ball of {mass_text(self.mass_kg, 1)} is let go"
+        mass = mass_text(self.mass_kg, 1)
         if self.cable:
-            yield PlannedStep(self.release_time_s, self.release_time_s, f"{what} on its cable", "")
+            what = Text("ball of {} is let go on its cable", mass)
+            yield PlannedStep(self.release_time_s, self.release_time_s, what, "")
         for drop in self.drops:
-            height = f"{what}, {given(drop.drop_height_m):g} m above the deck"
+            what = Text("ball of {} is let go, {} above the deck", mass, Quantity(given(drop.drop_height_m), "m", "g"))
             lands_s = drop.release_time_s + drop.fall_time_s
-            yield PlannedStep(drop.release_time_s, lands_s, height, f"above {point_text(given(drop.target_m))}")
+            yield PlannedStep(drop.release_time_s, lands_s, what, Text("above {}", point_text(given(drop.target_m))))
 
     @classmethod
     def means(cls, actions: Sequence[Self]) -> str:
         (ball,) = actions
         times = max(len(ball.drops), 1)
-        return f"ball of {mass_text(ball.mass_kg, 1)}, let go {'once' if times == 1 else f'{times} times'}"
+        mass = mass_text(ball.mass_kg, 1)
+        return Text("ball of {}, let go once", mass) if times == 1 else Text("ball of {}, let go {} times", mass, times)
 
     def facts(self, site: Worksite) -> Iterator[Fact]:
         yield "mass", mass_text(self.mass_kg)
@@ -306,12 +309,15 @@ class Ball(_Drop, BodyInContact, PlannedAction):
 
     def unusual(self, site: Worksite) -> Iterator[str]:
         if not _USUAL_DENSITY_KG_M3[0] <= self.density_kg_m3 <= _USUAL_DENSITY_KG_M3[1]:
-            yield (
-                f"The ball of {self.mass_kg:.4g} kg and {self.diameter_m:.4g} m has {self.density_kg_m3:.3g} kg/m³; "
-                "steel has 7850"
+            yield Text(
+                "The ball of {} and {} has {}; steel has {}",
+                Quantity(self.mass_kg, "kg", ".4g"),
+                Quantity(self.diameter_m, "m", ".4g"),
+                Quantity(self.density_kg_m3, "kg/m³", ".3g"),
+                Quantity("7850", "kg/m³", shown=False),
             )
         if self.mass_kg > site.mass_kg:
-            yield f"The ball is {self.mass_kg / site.mass_kg:.3g} times as heavy as the bridge"
+            yield Text("The ball is {} times as heavy as the bridge", f"{self.mass_kg / site.mass_kg:.3g}")
 
     def check_plan(self, plan: Plan) -> None:
         """Check that it is let go within the run, is up before it is let go again, and swings above flat ground."""

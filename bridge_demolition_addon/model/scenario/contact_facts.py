@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from itertools import combinations
 
 from ...engineering.mechanics.contact_pairs import slowest_bounce_m_s
+from ...texts import Quantity, Text, joined
 from ..actions import Fact
 from .contacts import BodyInContact, SurfaceValues
 from .scenario import Scenario
@@ -26,10 +27,10 @@ class BodySurface:
 def contact_pairs(scenario: Scenario) -> Iterator[tuple[str, SurfaceValues]]:
     """Yield each pair that can meet, such as ``shard on ground``, with its friction and restitution."""
     shards, *others = _surfaces(scenario)
-    yield f"{shards.name} on {shards.name}", shards.values.with_other(shards.values)
+    yield Text("{} on {}", shards.name, shards.name), shards.values.with_other(shards.values)
     for first, second in combinations((shards, *others), 2):
         if first.moves:
-            yield f"{first.name} on {second.name}", first.values.with_other(second.values)
+            yield Text("{} on {}", first.name, second.name), first.values.with_other(second.values)
 
 
 def contact_facts(scenario: Scenario) -> Iterator[Fact]:
@@ -38,14 +39,20 @@ def contact_facts(scenario: Scenario) -> Iterator[Fact]:
         yield "given", sentence
     pairs = list(contact_pairs(scenario))
     if unused := _unused_keys(scenario):
-        yield "of no use", f"{', '.join(unused)}: no such body is in the scenario"
+        yield Text("of no use"), Text("{}: no such body is in the scenario", ", ".join(unused))
     for name, values in pairs:
         yield name, values_text(values)
     if largest := max(values.restitution for _, values in pairs):
         substep_s = scenario.time.step.substep_s
         speeds = (slowest_bounce_m_s(largest, size_m * math.sqrt(0.75), substep_s) for size_m in _SIZES_M)
-        named = (f"{speed:.2g} m/s of one of {size_m:g} m" for size_m, speed in zip(_SIZES_M, speeds, strict=True))
-        yield "bounce", f"none below {' and '.join(named)}, with sub-steps of {1000.0 * substep_s:.3g} ms"
+        named = [
+            Text("{} of one of {}", Quantity(speed, "m/s", ".2g"), Quantity(size_m, "m", "g"))
+            for size_m, speed in zip(_SIZES_M, speeds, strict=True)
+        ]
+        yield (
+            "bounce",
+            Text("none below {}, with sub-steps of {} ms", joined("{} and {}", named), f"{1000.0 * substep_s:.3g}"),
+        )
 
 
 def _unused_keys(scenario: Scenario) -> list[str]:
@@ -60,18 +67,18 @@ def own_values_sentence(scenario: Scenario) -> str:
     """Return values of single bodies, as older files give them; empty where pairs are given."""
     if scenario.contacts is not None:
         return ""
-    of_bodies = ", ".join(
-        f"{surface.name} {surface.values.friction:g} and {surface.values.restitution:g}"
+    of_bodies = [
+        Text("{} {} and {}", surface.name, f"{surface.values.friction:g}", f"{surface.values.restitution:g}")
         for surface in _surfaces(scenario)
-    )
-    return (
-        f"for single bodies, as in older files: {of_bodies}, where those left out are as they were; a contact has the "
-        "products"
+    ]
+    return Text(
+        "for single bodies, as in older files: {}, where those left out are as they were; a contact has the products",
+        joined("{}, {}", of_bodies),
     )
 
 
 def values_text(values: SurfaceValues) -> str:
-    return f"friction {values.friction:.3g}, restitution {values.restitution:.3g}"
+    return Text("friction {}, restitution {}", f"{values.friction:.3g}", f"{values.restitution:.3g}")
 
 
 def _surfaces(scenario: Scenario) -> list[BodySurface]:
@@ -80,15 +87,15 @@ def _surfaces(scenario: Scenario) -> list[BodySurface]:
     def named(name: str, body: BodyInContact, *, moves: bool = False) -> BodySurface:
         return BodySurface(name, scenario.surface_of(body), moves)
 
-    ball = [] if scenario.ball is None else [named("ball", scenario.ball, moves=True)]
+    ball = [] if scenario.ball is None else [named(Text("ball"), scenario.ball, moves=True)]
     levels = [named(surface.name, surface) for surface in scenario.ground.surfaces]
-    hammers = [named(f"jackhammer {number}", body) for number, body in enumerate(scenario.jackhammers, start=1)]
+    hammers = [named(Text("jackhammer {}", number), body) for number, body in enumerate(scenario.jackhammers, start=1)]
     return [
-        named("shard", scenario.shards, moves=True),
+        named(Text("shard"), scenario.shards, moves=True),
         *ball,
-        named("ground", scenario.ground),
-        *_together("surfaces", levels),
-        *_together("jackhammer", hammers),
+        named(Text("ground"), scenario.ground),
+        *_together(Text("surfaces"), levels),
+        *_together(Text("jackhammer"), hammers),
     ]
 
 

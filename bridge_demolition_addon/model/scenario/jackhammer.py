@@ -9,7 +9,8 @@ import numpy as np
 
 from ...engineering.arithmetic import cosine
 from ...engineering.geometry.vectors import points_along
-from ..actions import Fact, HeightAt, Place, Plan, PlannedAction, Point, Worksite, point_text
+from ...texts import Text, point_text
+from ..actions import Fact, HeightAt, Place, Plan, PlannedAction, Point, Worksite
 from ..schema import SHORTEST_LENGTH_M, key
 from .contacts import FRICTION, OWN_VALUE, TOOLS, BodyInContact
 
@@ -104,7 +105,8 @@ class Jackhammer(BodyInContact, PlannedAction):
             yield along, across, float(tip[2]) + self.length_m
 
     def described(self) -> tuple[str, str]:
-        return "jackhammer works", f"from {point_text(self.path_m[0])} to {point_text(self.path_m[-1])}"
+        ends = point_text(self.path_m[0]), point_text(self.path_m[-1])
+        return Text("jackhammer works"), Text("from {} to {}", *ends)
 
     def facts(self, site: Worksite) -> Iterator[Fact]:
         work = f"jackhammer until {self.end_time_s:g} s, at up to {self.largest_speed_m_s:.1f} m/s"

@@ -8,6 +8,7 @@ from ...engineering.elasticity.steel_bars import Steel
 from ...engineering.reinforced_concrete.materials import GRADES
 from ...engineering.reinforced_concrete.traffic import Traffic, hl_93, load_model_1, own_traffic
 from ...errors import ScenarioError
+from ...texts import Quantity, Text, joined
 from ..schema import SIZE, Table, key
 
 LOAD_MODEL_1 = "LM1"
@@ -133,11 +134,15 @@ class BarRule(Table):
     def described(self) -> str:
         """What the bars follow from, for a heading."""
         if self.designed_for is not None:
-            return "own weight" if self.designed_for == OWN_WEIGHT else f"own weight and {self.designed_for}"
-        parts = [] if self.traffic_kn_m2 is None else [f"{self.traffic_kn_m2:g} kN/m²"]
+            return (
+                Text("own weight") if self.designed_for == OWN_WEIGHT else Text("own weight and {}", self.designed_for)
+            )
+        parts: list[str] = [] if self.traffic_kn_m2 is None else [Quantity(self.traffic_kn_m2, "kN/m²", "g")]
         if self.axles_kn is not None:
-            parts.append(f"axles of {' + '.join(f'{axle:g}' for axle in self.axles_kn)} kN")
-        return f"own weight, {' and '.join(parts)}"
+            *others, last = self.axles_kn
+            axles = [*(Quantity(axle, "kN", "g", shown=False) for axle in others), Quantity(last, "kN", "g")]
+            parts.append(Text("axles of {}", joined("{} + {}", axles)))
+        return Text("own weight, {}", joined("{} and {}", parts))
 
     def traffic(self, deck_width_m: float) -> Traffic | None:
         """Return the traffic of the design; None for own weight alone."""
@@ -192,7 +197,7 @@ class BridgeReinforcement(BarRule):
     @property
     def described(self) -> str:
         """What the bars follow from, for a heading."""
-        return BarRule.described.__get__(self) if self.is_designed else "ratios of steel"
+        return BarRule.described.__get__(self) if self.is_designed else Text("ratios of steel")
 
     @property
     def is_designed(self) -> bool:

@@ -14,14 +14,15 @@ import numpy as np
 from ...engineering.search.bisection import median_interval
 from ...engineering.search.probit import LevelOutcomes, fitted, limit
 from ...system.disk import whole_file
+from ...texts import Text
 from ..study.conclusions import finite
 from ..study.outcome import SUCCESS
 from ..study.runs_table import RunsTable
 from .file import Search
 
-CLOSE_ENOUGH, OUT_OF_RUNS = "the limit is as close as was asked for", "all runs were made"
-NEVER, ALWAYS = "the criteria were never met in the range", "the criteria were always met in the range"
-FALLING = "the criteria are met less often where they should be met more often"
+CLOSE_ENOUGH, OUT_OF_RUNS = Text("the limit is as close as was asked for"), Text("all runs were made")
+NEVER, ALWAYS = Text("the criteria were never met in the range"), Text("the criteria were always met in the range")
+FALLING = Text("the criteria are met less often where they should be met more often")
 
 OPENING = 8
 """Runs of one kind only, after which the criteria count as always or never met in the range."""

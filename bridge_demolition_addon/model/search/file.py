@@ -7,13 +7,14 @@ from os import PathLike
 from typing import ClassVar
 
 from ...errors import ScenarioError
+from ...texts import Quantity, Text, Unit
 from ..scenario import Scenario
 from ..study.criteria import check_criteria
 from ..study.file import SEED, Ensemble, read_ensemble_file, variations_of
 from ..study.files import ANSWER_FILE, SEARCH_FILE, TRIALS_FILE
 from ..study.keys import ScenarioKey, changed, keys_named
 from ..study.sampled_runs import SampledRun, sampled_run
-from ..study.shown_names import shown
+from ..study.shown_names import words_and_unit
 from .settings import LevelScale, SearchSettings
 
 
@@ -39,13 +40,18 @@ class Search(Ensemble):
         """Unit of the quantity, empty for a plain number."""
         return "" if self.settings.factor else self.keys[0].unit
 
+    def amount(self, number: str, *, shown: bool = True) -> str:
+        """Return a value of the quantity with its unit, if it has one."""
+        return Quantity(number, self.unit, shown=shown) if self.unit else number
+
     @property
     def shown_quantity(self) -> str:
         """The quantity as people read it, with its unit in brackets, or the word factor."""
-        words = shown(self.settings.key)
+        words, unit = words_and_unit(self.settings.key)
         if self.settings.factor:
-            return f"{words.rpartition(' (')[0] or words} (factor)"
-        return words if not self.unit or words.endswith(")") else f"{words} ({self.unit})"
+            return Text("{} (factor)", words)
+        unit = unit or self.unit
+        return Text("{0} ({1})", words, Unit(unit)) if unit else words
 
     def run_at(self, number: int, value: float) -> SampledRun:
         """Return a run, from 1 on, at a value of the quantity."""

@@ -11,6 +11,7 @@ from typing import Any, Self
 
 import numpy as np
 
+from ...texts import Text
 from ..changes.bare_bars import bare_bars_text
 from ..results.arrays import Results
 from ..results.moving import gone_text, moving_text
@@ -33,20 +34,20 @@ class Ending:
     """When and how a run ended, and what was still to come; None where nothing was."""
 
     time_s: float
-    how: str = "Ended"
+    how: str = "Ended at"
     undone: Undone | None = None
 
     @classmethod
     def of(cls, summary: Mapping[str, Any]) -> Self:
         """Return how the run of a summary ended."""
         undone = summary.get("ended_before")
-        how = "Ended" if summary.get("completed", True) else "Stopped"
+        how = "Ended at" if summary.get("completed", True) else "Stopped at"
         return cls(float(summary.get("simulated_s", 0.0)), how, undone and Undone(undone))
 
     @property
     def has_outcome(self) -> bool:
         """Whether the run went on to its end, and all that is planned was done by then."""
-        return self.how == "Ended" and self.undone is None
+        return self.how == "Ended at" and self.undone is None
 
     @property
     def is_before_demolition(self) -> bool:
@@ -58,11 +59,11 @@ class Ending:
         """What is to be said before anything else of the run, without a full stop; empty where it has an outcome."""
         if self.has_outcome:
             return ""
-        before = f"before {self.undone or 'its end'}"
-        if self.how == "Ended" and self.undone is Undone.HIT:
-            before = "without a hit of the ball"
+        before = Text(f"before {self.undone or 'its end'}")
+        if self.how == "Ended at" and self.undone is Undone.HIT:
+            before = Text("without a hit of the ball")
         meaning = "says nothing of the outcome" if self.is_before_demolition else "what follows is no outcome"
-        return f"{self.how} at {self.time_s:.2f} s, {before}: {meaning}"
+        return Text(f"{self.how} {{}} s, {{}}: {meaning}", f"{self.time_s:.2f}", before)
 
 
 def undone_at_end(results: Results, scenario: Scenario, *, has_hit: bool) -> Undone | None:

@@ -17,6 +17,7 @@ from ...engineering.geometry.vectors import cross, length, unit
 from ...engineering.mechanics.slings import Hanging, hanging, sling_forces_n
 from ...engineering.structure.connections import GROUND
 from ...engineering.units import STANDARD_GRAVITY_M_S2
+from ...texts import Text, joined
 from ..as_built import Structure
 from ..lifts import Lift, Pick, Sling, radius_m, sling_of
 from ..schema import given
@@ -196,10 +197,11 @@ def held_parts_text(summary: Mapping[str, Any]) -> str:
     held = [event for event in summary.get("events", ()) if event.get("held_by")]
     if not held:
         return ""
-    parts = ", and ".join(f"lift {event['lift']!r} by {', '.join(event['held_by'])}" for event in held)
-    return (
-        f"Parts were still held when the crane lifted them away: {parts}. The run took them out nevertheless; a crane "
-        "cannot. Cut them free before, or lift later"
+    parts = [Text("lift {} by {}", repr(event["lift"]), joined("{}, {}", event["held_by"])) for event in held]
+    return Text(
+        "Parts were still held when the crane lifted them away: {}. The run took them out nevertheless; a crane "
+        "cannot. Cut them free before, or lift later",
+        joined("{}, and {}", parts),
     )
 
 

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from ...texts import Quantity, Text
 from ..results.arrays import Results
 from ..results.motion import MOVED_M, travel
 from ..scenario import Scenario
@@ -75,9 +76,10 @@ def asleep_text(scenario: Scenario) -> str:
     """Return that a run cannot show whether the bridge stands, where its shards sleep at first; empty otherwise."""
     if not scenario.shards.start_deactivated:
         return ""
-    return (
-        "All shards sleep until something hits them, so a run does not show whether the bridge stands by itself: "
-        "run it with shards.start_deactivated = false and without what is done to it"
+    return Text(
+        "All shards sleep until something hits them, so a run does not show whether the "
+        "bridge stands by itself: run it with shards.start_deactivated = false and without "
+        "what is done to it"
     )
 
 
@@ -86,14 +88,20 @@ def self_collapse_text(summary: Mapping[str, Any]) -> str:
     fall = summary.get("fell_by_itself")
     if not fall:
         return ""
-    when = "though nothing was done to it" if fall["until_s"] is None else "before anything was done to it"
-    until = "" if fall["until_s"] is None else f" up to {fall['until_s']:.2f} s"
-    parts = []
+    moved = Text("shards moved by up to {}", Quantity(fall["largest_move_m"], "m", ".2f"))
+    parts = moved
     if fall["first_break_s"] is not None:
-        first = f"the first at {fall['first_break_s']:.2f} s"
-        parts.append(f"{fall['broken']} of {fall['connections']} connections broke, {first},")
-    parts.append(f"shards moved by up to {fall['largest_move_m']:.2f} m")
-    return (
-        f"The bridge does not stand by itself: {' and '.join(parts)}{until}, {when}. Make its connections stronger, or "
-        "cut it otherwise"
+        breaks = fall["broken"], fall["connections"], f"{fall['first_break_s']:.2f}"
+        parts = Text("{} and {}", Text("{} of {} connections broke, the first at {} s,", *breaks), moved)
+    if fall["until_s"] is None:
+        return Text(
+            "The bridge does not stand by itself: {}, though nothing was done to it. Make its connections "
+            "stronger, or cut it otherwise",
+            parts,
+        )
+    return Text(
+        "The bridge does not stand by itself: {} up to {} s, before anything was done to it. Make its connections "
+        "stronger, or cut it otherwise",
+        parts,
+        f"{fall['until_s']:.2f}",
     )

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from ...texts import Quantity, Text
 from ..bridge.member import Member
 from ..scenario import Scenario
 from ..structure.blast_zones import RECORDED_G_T, grams_per_tonne, placed_zones
@@ -44,21 +45,31 @@ def _explosive(scenario: Scenario, model: Model) -> Iterator[str]:
     if rate > _LARGEST_G_T:
         least, most = RECORDED_G_T
         yield (
-            f"{mass_kg:.4g} kg of explosive beside drill holes are {rate:.4g} g a tonne of the bridge, recorded jobs "
-            f"have {least:g} to {most:g} in holes (is it in kg?)"
+            Text(
+                "{} of explosive beside drill holes are {} a tonne of the bridge, recorded jobs have "
+                "{} to {} in holes (is it in kg?)",
+                Quantity(mass_kg, "kg", ".4g"),
+                Quantity(rate, "g", ".4g"),
+                f"{least:g}",
+                f"{most:g}",
+            )
         )
 
 
 def _machines(scenario: Scenario, bridge_kg: float) -> Iterator[str]:
     for machine in scenario.equipment:
         if machine.mass_kg > _MOST_MACHINES * bridge_kg:
-            yield f"{machine.name} is {machine.mass_kg / bridge_kg:.3g} times as heavy as the bridge (is it in kg?)"
+            yield Text(
+                "{} is {} times as heavy as the bridge (is it in kg?)",
+                machine.name,
+                f"{machine.mass_kg / bridge_kg:.3g}",
+            )
 
 
 def _neighbours(scenario: Scenario, site: ModelWorksite) -> Iterator[str]:
     for neighbour in scenario.neighbours:
         if inside := site.member_within(neighbour.position_m, _POINT_M):
-            yield f"{neighbour.name} lies in {inside}, as no neighbour does (is its place right?)"
+            yield Text("{} lies in {}, as no neighbour does (is its place right?)", neighbour.name, inside)
 
 
 USUAL_DENSITY_KG_M3 = (300.0, 9000.0)
@@ -79,7 +90,7 @@ _MOST_NAMED = 5
 def unusual_sizes(scenario: Scenario, members: Sequence[Member]) -> Iterator[str]:
     """Yield what is so large or small that it was probably given in another unit, as sentences without full stops."""
     found = [*_deck_sizes(scenario), *_member_sizes(members), *_densities(members)]
-    return (f"{text} (is it in another unit?)" for text in found[:_MOST_NAMED])
+    yield from found[:_MOST_NAMED]
 
 
 def _member_sizes(members: Sequence[Member]) -> Iterator[str]:
@@ -87,21 +98,29 @@ def _member_sizes(members: Sequence[Member]) -> Iterator[str]:
         extents = np.ptp(member.solid.vertices, axis=0)
         longest = int(extents.argmax())
         if not _usual(extents[longest], USUAL_LENGTH_M):
-            yield f"{member.name} is {extents[longest]:.4g} m {('long', 'wide', 'high')[longest]}"
+            pattern = (
+                "{} is {} long (is it in another unit?)",
+                "{} is {} wide (is it in another unit?)",
+                "{} is {} high (is it in another unit?)",
+            )[longest]
+            yield Text(pattern, member.name, Quantity(extents[longest], "m", ".4g"))
         elif not _usual(member.thickness_m, USUAL_THICKNESS_M):
-            yield f"{member.name} is {member.thickness_m:.4g} m thick"
+            yield Text("{} is {} thick (is it in another unit?)", member.name, Quantity(member.thickness_m, "m", ".4g"))
 
 
 def _densities(members: Sequence[Member]) -> Iterator[str]:
-    by_density: dict[str, list[str]] = {}
+    by_density: dict[Quantity, list[str]] = {}
     for member in members:
         if member.steel and not member.steel.bar:
             continue  # a node carries what its body is too small for
         density = member.mass_kg / member.volume_m3
         if not _usual(density, USUAL_DENSITY_KG_M3):
-            by_density.setdefault(f"{density:.4g} kg/m³", []).append(member.name)
-    for text, names in by_density.items():
-        yield f"{names[0]} has {text}" if len(names) == 1 else f"{len(names)} members, such as {names[0]}, have {text}"
+            by_density.setdefault(Quantity(density, "kg/m³", ".4g"), []).append(member.name)
+    for of_them, names in by_density.items():
+        if len(names) == 1:
+            yield Text("{} has {} (is it in another unit?)", names[0], of_them)
+        else:
+            yield Text("{} members, such as {}, have {} (is it in another unit?)", len(names), names[0], of_them)
 
 
 def _deck_sizes(scenario: Scenario) -> Iterator[str]:
@@ -111,7 +130,11 @@ def _deck_sizes(scenario: Scenario) -> Iterator[str]:
     thickness_m = bridge.deck.thickness_m
     ratio = max(bridge.span_lengths_m) / thickness_m
     if not _usual(ratio, USUAL_SPAN_OVER_DECK):
-        yield f"The deck is {thickness_m:g} m thick for spans of up to {max(bridge.span_lengths_m):g} m"
+        yield Text(
+            "The deck is {} thick for spans of up to {} (is it in another unit?)",
+            Quantity(thickness_m, "m", "g"),
+            Quantity(max(bridge.span_lengths_m), "m", "g"),
+        )
 
 
 def _usual(value: float, limits: tuple[float, float]) -> bool:

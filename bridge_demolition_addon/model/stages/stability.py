@@ -7,6 +7,7 @@ from dataclasses import asdict, dataclass, field
 from typing import Any
 
 from ...engineering.units import mass_text
+from ...texts import Quantity, Text, joined, of_stored, stored
 from ..actions import Fact
 from ..structure.zone_loads import ZoneLoad
 from .standing import LARGEST_FACTOR
@@ -31,7 +32,7 @@ class MemberShare:
     @property
     def text(self) -> str:
         """How many, and what they weigh."""
-        return f"{self.shards} shards, {mass_text(self.mass_kg).strip()}"
+        return f"{self.shards} shards, {mass_text(self.mass_kg)}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,8 +46,10 @@ class OverloadedMember:
     @property
     def text(self) -> str:
         """How many connections, and how much at most."""
-        number = "1 connection" if self.connections == 1 else f"{self.connections} connections"
-        return f"{number} at up to {self.utilisation:.0%}"
+        at_most = f"{self.utilisation:.0%}"
+        if self.connections == 1:
+            return Text("1 connection at up to {}", at_most)
+        return Text("{} connections at up to {}", self.connections, at_most)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -100,45 +103,54 @@ class Stability:
 
     def to_json(self) -> dict[str, Any]:
         """Return it ready for JSON."""
-        return asdict(self)
+        texts = (self.reason, self.used_of, *self.unusual, *self.loose_on)
+        return asdict(self) | {"texts": {text: stored(text) for text in texts if isinstance(text, Text)}}
 
     @classmethod
     def of_json(cls, values: Mapping[str, Any]) -> Stability:
         """Return what `stored` gave, maybe after JSON."""
         tables: dict[str, Any] = {"overloaded": OverloadedMember, "unsupported": MemberShare, "loose": MemberShare}
         tables["zones"] = ZoneLoad  # runs of before have none
+        parts = values.get("texts", {})  # runs of before have none
+
+        def text(english: str) -> str:
+            return of_stored(parts[english]) if english in parts else english
+
         known: dict[str, Any] = {name: tuple(of(**row) for row in values.get(name, ())) for name, of in tables.items()}
-        return cls(
-            **{**values, **known, "loose_on": tuple(values["loose_on"]), "unusual": tuple(values.get("unusual", ()))}
-        )
+        known |= {name: tuple(map(text, values.get(name, ()))) for name in ("loose_on", "unusual")}
+        known |= {name: text(values[name]) for name in ("reason", "used_of") if name in values}
+        return cls(**{name: value for name, value in {**values, **known}.items() if name != "texts"})
 
     @property
     def sentence(self) -> str:
         """Return the verdict in one sentence, without a full stop."""
         if self.verdict == UNKNOWN:
-            return f"Whether the bridge stands cannot be known by statics: {self.reason}; {AWAKE_ADVICE}"
-        under = "under its own weight, by statics"
+            return Text(f"Whether the bridge stands cannot be known by statics: {{}}; {AWAKE_ADVICE}", self.reason)
         as_elastic = ", as if its connections were elastic" if self.is_rigid else ""
         if self.verdict == COMES_DOWN:
-            factor = "" if self.load_factor is None else f"collapse load factor {_factor_text(self.load_factor)}, "
-            return f"The bridge comes down {under}{as_elastic}: {factor}{self.reason}"
-        return f"The bridge stands {under}{as_elastic}: {', '.join(self._resistances())}"
+            factor = (
+                "" if self.load_factor is None else Text("collapse load factor {}, ", _factor_text(self.load_factor))
+            )
+            down = f"The bridge comes down under its own weight, by statics{as_elastic}: {{}}{{}}"
+            return Text(down, factor, self.reason)
+        stands = f"The bridge stands under its own weight, by statics{as_elastic}: {{}}"
+        return Text(stands, joined("{}, {}", self._resistances()))
 
     def _resistances(self) -> Iterator[str]:
         if self.load_factor is not None:
-            yield f"collapse load factor {_factor_text(self.load_factor)}"
+            yield Text("collapse load factor {}", _factor_text(self.load_factor))
         if self.utilisation is not None:
             of = f" {self.used_of}" if self.used_of else ""
-            yield f"largest utilisation {self.utilisation:.0%}{of} ({self.used_most})"
+            yield Text(f"largest utilisation {{}}{of} ({{}})", f"{self.utilisation:.0%}", self.used_most)
         if self.deflection_m is not None:
-            yield f"deflection {1000.0 * self.deflection_m:.2f} mm"
+            yield Text("deflection {}", Quantity(1000.0 * self.deflection_m, "mm", ".2f"))
 
     @property
     def asleep_sentence(self) -> str:
         """Return that a run does not show it, without a full stop; empty where it does."""
         if not self.is_asleep:
             return ""
-        return (
+        return Text(
             "In the run all shards sleep until something hits them, so that it does not show whether the bridge stands"
         )
 
@@ -159,7 +171,7 @@ class Stability:
         if self.cracked:
             yield "cracked", f"{self.cracked} of {self.connections} faces are cracked and held by bars"
         for part in self.overloaded:
-            yield "above 100 %", f"{part.member}: {part.text}"
+            yield Text("above 100 %"), Text("{}: {}", part.member, part.text)
         if self.overloaded and self.verdict == STANDS:
             yield "", "these break, and others take over their loads"
         if self.verdict == STANDS and self.load_factor is not None and self.load_factor < NARROW:
@@ -177,4 +189,4 @@ def stability_texts(summary: Mapping[str, Any]) -> tuple[str, ...]:
 
 
 def _factor_text(factor: float) -> str:
-    return f"above {LARGEST_FACTOR:g}" if factor >= LARGEST_FACTOR else f"{factor:.2f}"
+    return Text("above {}", f"{LARGEST_FACTOR:g}") if factor >= LARGEST_FACTOR else f"{factor:.2f}"

@@ -15,6 +15,7 @@ from ...engineering.geometry.level_contacts import level_contacts
 from ...engineering.geometry.proximity import boxes_that_meet
 from ...engineering.units import mass_text
 from ...errors import DemolitionError
+from ...texts import Text, joined
 from ..bridge.member import Member
 from ..scenario import Scenario
 from ..scenario.bearings import SLIDING, Bearing
@@ -64,10 +65,11 @@ def stability_of(
     known["unsupported"] = _counted(model, _without_splinters(model, paths.falling))
     known["loose"] = _counted(model, _without_splinters(model, paths.loose))
     if known["unsupported"]:
-        return Stability(verdict=COMES_DOWN, reason=f"nothing holds {_named(known['unsupported'])}", **known)
+        return Stability(verdict=COMES_DOWN, reason=Text("nothing holds {}", _named(known["unsupported"])), **known)
     if (method := scenario.connections.method) != "face":
-        lies = f", and {_named(known['loose'])} lie loose" if known["loose"] else ""
-        reason = f'connections.method is "{method}": without the faces of shards there are no stresses{lies}'
+        reason = Text('connections.method is "{}": without the faces of shards there are no stresses', method)
+        if known["loose"]:
+            reason = Text("{}, and {} lie loose", reason, _named(known["loose"]))
         return Stability(verdict=UNKNOWN, reason=reason, **known)
     if missing := missing_core():
         return Stability(verdict=UNKNOWN, reason=str(missing), **known)
@@ -79,11 +81,13 @@ def stability_of(
             model, resting = build_model(elastic, model.members), None
     except DemolitionError as error:
         return Stability(verdict=UNKNOWN, reason=str(error), **known)
-    known["loose_on"] = tuple(f"{model.members[one].name} on {model.members[other].name}" for one, other in contacts)
+    known["loose_on"] = tuple(
+        Text("{} on {}", model.members[one].name, model.members[other].name) for one, other in contacts
+    )
     paths_on_bearings = support_paths(model)
     if still := _counted(model, _without_splinters(model, paths_on_bearings.loose)):
         known["loose_on"] = ()
-        reason = f"{_named(still)} lie loose, held by contact alone, which statics does not follow"
+        reason = Text("{} lie loose, held by contact alone, which statics does not follow", _named(still))
         return Stability(verdict=UNKNOWN, reason=reason, **known)
     bridge = StandingBridge(model, on_bearings.joints, pause, resting)
     return _by_statics(bridge, elastic, paths_on_bearings, known, with_factor=with_factor)
@@ -104,7 +108,7 @@ def _by_statics(
     ones, nothing = np.ones(len(model.connections)), np.zeros((6, len(model.shards)))
     standing = bridge.rest(ones > 0.0, ones, nothing)
     if turning := _counted(model, _without_splinters(model, paths.connected & ~model.fixed & ~standing.held)):
-        reason = f"nothing keeps {_named(turning)} from turning over or sliding off"
+        reason = Text("nothing keeps {} from turning over or sliding off", _named(turning))
         is_on_contact = bool(known["loose_on"])  # a line of contact holds less than the area that lies there
         return Stability(verdict=UNKNOWN if is_on_contact else COMES_DOWN, reason=reason, **known)
     known["zones"] = zone_loads(scenario.blast_zones, model, standing.loads)
@@ -115,9 +119,9 @@ def _by_statics(
     known["overloaded"] = _overloaded(model, used)
     known["overloaded_connections"] = int((used > 1.0).sum())
     if known["overloaded"] and len(model.shards) > MOST_SHARDS_FOLLOWED and not with_factor:
-        parts = ", ".join(part.member for part in known["overloaded"][:_MOST_NAMED])
-        reason = (
-            f"connections of {parts} are overloaded, and what breaks then takes long to work out (bda check --stand)"
+        parts = joined("{}, {}", [part.member for part in known["overloaded"][:_MOST_NAMED]])
+        reason = Text(
+            "connections of {} are overloaded, and what breaks then takes long to work out (bda check --stand)", parts
         )
         return Stability(verdict=UNKNOWN, reason=reason, **known)
     fallen = bridge.comes_down(ones > 0.0, ones, nothing, 1.0)
@@ -126,8 +130,9 @@ def _by_statics(
         known["load_factor"] = float(factor) if np.isfinite(factor) else None
     if not fallen.any():
         return Stability(verdict=STANDS, **known)
-    parts = "; ".join(f"{part.member}, {part.text}" for part in known["overloaded"][:_MOST_NAMED])
-    reason = f"{_named(_counted(model, fallen))} come down, overloaded in {parts}"
+    named = [Text("{}, {}", part.member, part.text) for part in known["overloaded"][:_MOST_NAMED]]
+    parts = joined("{}; {}", named)
+    reason = Text("{} come down, overloaded in {}", _named(_counted(model, fallen)), parts)
     return Stability(verdict=COMES_DOWN, reason=reason, **known)
 
 
@@ -200,10 +205,11 @@ def _with_bearings(scenario: Scenario, members: Sequence[Member], contacts: Sequ
 
 def _named(shares: Sequence[MemberShare]) -> str:
     """Return shards with the members that most of them are of."""
-    names = ", ".join(share.member for share in shares[:_MOST_NAMED])
-    more = " and more" if len(shares) > _MOST_NAMED else ""
+    names = joined("{}, {}", [share.member for share in shares[:_MOST_NAMED]])
+    if len(shares) > _MOST_NAMED:
+        names = Text("{} and more", names)
     count, mass_kg = sum(share.shards for share in shares), math.fsum(share.mass_kg for share in shares)
-    return f"{count} shards of {names}{more} ({mass_text(mass_kg).strip()})"
+    return Text("{} shards of {} ({})", count, names, mass_text(mass_kg))
 
 
 _TOUCHING_M = 0.005

@@ -13,6 +13,7 @@ from ...engineering.elasticity.tendons import LEAST_RELEASED_J
 from ...engineering.geometry.vectors import unit
 from ...engineering.units import STANDARD_GRAVITY_M_S2
 from ...errors import ScenarioError
+from ...texts import Text, joined
 from ..actions import Fact
 from ..changes.change import Event, schedule
 from ..pulls import Pull
@@ -32,8 +33,18 @@ from .standing import MostUsed, Standing, StandingBridge, most_used_of
 
 _TAKEN_OFF = "{} is taken off"
 _BUILT, _MACHINES, _PULLS = "as it was built", "equipment comes or goes", "pull by {}"
-_SLINGS, _LIFTED = "slings of {} take up {:.0%}", "{} is lifted away"
+_SLINGS, _LIFTED = "slings of {} take up {}", "{} is lifted away"
 """Steps without an event."""
+
+_KINDS = ("removal", "lifting away", "saw cut", "severed member", "tendon cut", "weakening")
+STEPS = (
+    _PULLS,
+    _SLINGS,
+    _LIFTED,
+    _TAKEN_OFF,
+    *(f"{kind} of {{}}{of}" for of in (" connections", "") for kind in _KINDS),
+)
+"""Patterns of the steps that tables of stages have."""
 
 _GRID = 8
 """Along each side of a footprint: its weight stands on a grid of so many by so many points."""
@@ -297,23 +308,24 @@ def _described_step(
     scenario: Scenario, time_s: float, events: Sequence[Event], model: Model, gone: Sequence[PartOnHook]
 ) -> str:
     done = [_described(event, model) for event in events]
-    done += [_PULLS.format(pull.name) for pull in scenario.pulls if pull.start_s == time_s]
-    done += [_LIFTED.format(part.lift.name) for part in gone]
-    done += [_SLINGS.format(lift.name, lift.pretension) for lift in scenario.lifts if lift.from_s == time_s]
-    done += [_TAKEN_OFF.format(load.name) for load in scenario.dead_loads if load.until_s == time_s]
-    return ", ".join(done) or (_MACHINES if time_s > 0.0 else _BUILT)
+    done += [Text(_PULLS, pull.name) for pull in scenario.pulls if pull.start_s == time_s]
+    done += [Text(_LIFTED, part.lift.name) for part in gone]
+    done += [Text(_SLINGS, lift.name, f"{lift.pretension:.0%}") for lift in scenario.lifts if lift.from_s == time_s]
+    done += [Text(_TAKEN_OFF, load.name) for load in scenario.dead_loads if load.until_s == time_s]
+    return joined("{}, {}", done) or Text(_MACHINES if time_s > 0.0 else _BUILT)
 
 
 def _described(event: Event, model: Model) -> str:
     if event.change.step:
         return event.change.step
+    of_kind = f"{event.kind} of {{}}"
     if len(event.bodies):
         names = {model.members[member].name for member in model.member_of_shard[event.bodies]}
-        return f"{event.kind} of {', '.join(sorted(names))}"
+        return Text(of_kind, joined("{}, {}", sorted(names)))
     if event.tendons and not len(event.connections):
         cut = sorted({cut.tendon for cut in event.tendons})
-        return f"{event.kind} of {', '.join(given(model.tendons).names[tendon] for tendon in cut)}"
-    return f"{event.kind} of {len(event.connections)} connections"
+        return Text(of_kind, joined("{}, {}", [given(model.tendons).names[tendon] for tendon in cut]))
+    return Text(f"{of_kind} connections", len(event.connections))
 
 
 @dataclass(frozen=True, slots=True)

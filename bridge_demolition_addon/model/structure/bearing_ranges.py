@@ -14,6 +14,7 @@ import numpy as np
 
 from ...engineering.elasticity.equilibrium import Equilibrium
 from ...errors import ScenarioError
+from ...texts import Text
 from ..actions import Fact
 from ..scenario import Scenario
 from ..schema import LARGEST_INTEGER, given
@@ -22,9 +23,9 @@ from .equilibrium import loads_of, model_at_rest, overloaded
 from .model import Model, build_model
 from .model_bearings import BearingForce
 
-ONE_CUT = (
-    "Single bearings are of this one cut: each seed shares what an axis carries otherwise, and bda check --cuts 5 says "
-    "by how much."
+ONE_CUT = Text(
+    "Single bearings are of this one cut: each seed shares what an axis carries "
+    "otherwise, and bda check --cuts 5 says by how much."
 )
 """What is said beside forces of bearings that may carry an axis together."""
 
@@ -65,7 +66,7 @@ class BearingRanges:
         for name, forces_n in zip(self.names, self.upwards_n.T, strict=True):
             yield name, _range_text(forces_n)
         for axis in self.axes:
-            yield axis.name, f"{_range_text(self.upwards_n[:, list(axis.bearings)].sum(axis=1))}, in all"
+            yield axis.name, Text("{}, in all", _range_text(self.upwards_n[:, list(axis.bearings)].sum(axis=1)))
         # Of k + 1 exchangeable values each is as likely to be the least or the largest.
         yield "no bounds", f"one more cut is outside the range of a bearing with a chance of {2.0 / (count + 1):.0%}."
         yield "", "On the whole the mean is nearer than one cut to what the bridge does, which is not cut."

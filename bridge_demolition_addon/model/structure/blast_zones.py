@@ -25,6 +25,7 @@ from ...engineering.drilled_charges.specific_charge import (
 )
 from ...engineering.fracture.slabs import slab_between
 from ...engineering.mechanics.strength import NEWTON_PER_SQUARE_MILLIMETRE
+from ...texts import Quantity, Text
 from ..actions import Fact
 from ..blast.blast_zones import THROWN_AWAY, BlastZone, element_of, length_of_charge_m
 from ..bridge.member import Member, members_named
@@ -181,26 +182,41 @@ class PlacedZone:
         """Yield what a blaster would ask about, a sentence without a full stop each."""
         zone, share = self.zone, self.zone.depth_m / self.thickness_m
         if zone.stemming_m < self.burden_m - _ROUNDING:
-            yield f"stemming of {zone.stemming_m:.3g} m is less than the burden, {self.burden_m:.3g} m"
+            yield Text(
+                "stemming of {} is less than the burden, {}",
+                Quantity(zone.stemming_m, "m", ".3g"),
+                Quantity(self.burden_m, "m", ".3g"),
+            )
         least, most = USUAL_DEPTH_SHARES
         if not least - _ROUNDING <= share <= most + _ROUNDING:
-            yield f"holes are {share:.2f} of the thickness deep: {least:g} to {most:g} are usual"
+            shares = f"{share:.2f}", f"{least:g}", f"{most:g}"
+            yield Text("holes are {} of the thickness deep: {} to {} are usual", *shares)
         lowest, highest = self.table_kg_m3[0] / FACTOR_OF_DOUBT, self.thresholds.throw_kg_m3 * FACTOR_OF_DOUBT
         if zone.mass_kg and not lowest <= self.effective_kg_m3 <= highest:
-            table = f"{lowest:.2f} to {highest:.2f} kg/m³"
-            yield f"{self.effective_kg_m3:.2f} kg/m³ are outside half to twice the table, {table}"
+            yield Text(
+                "{} are outside half to twice the table, {} to {}",
+                Quantity(self.effective_kg_m3, "kg/m³", ".2f"),
+                Quantity(lowest, "kg/m³", ".2f", shown=False),
+                Quantity(highest, "kg/m³", ".2f"),
+            )
         if bars := self.bars:
             slender_m = float(slender_from_m(bars.diameter_m, bars.yield_pa))
             if zone.height_m < slender_m:
-                yield (
-                    f"bars of {_MM_PER_M * bars.diameter_m:.3g} mm bared over {zone.height_m:.2f} m resist "
-                    f"{self.cage_n[1] / self.cage_n[0]:.0%} of their yield force, and all of it if they are straight: "
-                    f"from {slender_m:.2f} m on these buckle, too"
+                yield Text(
+                    "bars of {} bared over {} resist {} of their yield force, and all of it if they are straight: "
+                    "from {} on these buckle, too",
+                    Quantity(_MM_PER_M * bars.diameter_m, "mm", ".3g"),
+                    Quantity(zone.height_m, "m", ".2f"),
+                    f"{self.cage_n[1] / self.cage_n[0]:.0%}",
+                    Quantity(slender_m, "m", ".2f"),
                 )
         if zone.mass_kg and zone.cover_factor == 1.0 and self.scaled_burial < RISKY_BURIAL:
             yield (
-                f"scaled depth of burial {self.scaled_burial:.2f} m/kg^(1/3) is below {RISKY_BURIAL:g}, and nothing "
-                "covers the holes: fragments fly far"
+                Text(
+                    "scaled depth of burial {} is below {}, and nothing covers the holes: fragments fly far",
+                    Quantity(self.scaled_burial, "m/kg^(1/3)", ".2f"),
+                    f"{RISKY_BURIAL:g}",
+                )
             )
 
     def unusual(self) -> Iterator[str]:
@@ -208,8 +224,14 @@ class PlacedZone:
         least, most = POSSIBLE_KG_M3
         if self.zone.mass_kg and not least <= self.effective_kg_m3 <= most:
             yield (
-                f"{self.zone.name} has {self.specific_kg_m3:.3g} kg of explosive a m³ of concrete, blasting manuals "
-                "and recorded jobs have 0.2 to 2 kg/m³ (is blast_zones.charge_g in g?)"
+                Text(
+                    "{} has {} of explosive a m³ of concrete, blasting manuals and recorded jobs have {} "
+                    "to {} (is blast_zones.charge_g in g?)",
+                    self.zone.name,
+                    Quantity(self.specific_kg_m3, "kg", ".3g"),
+                    Quantity("0.2", "kg/m³", shown=False),
+                    Quantity("2", "kg/m³"),
+                )
             )
 
     def facts(self, scenario: Scenario) -> Iterator[Fact]:
@@ -217,10 +239,36 @@ class PlacedZone:
         zone, (begin_m, end_m) = self.zone, self.zone.ends_along_m
         holes = f"{zone.holes} holes of {zone.charge_g:g} g = {zone.mass_kg:.3g} kg of {zone.explosive}"
         begins_s = zone.begins_s(scenario)
-        when = f"{begins_s:.3f} s" if math.isfinite(begins_s) else "does not go off" if zone.fires else "misfires"
-        yield given(zone.name), f"{self.member.name}, {zone.along} {begin_m:g} to {end_m:g} m, {holes}, {when}"
+        when = (
+            Text("{} s", f"{begins_s:.3f}")
+            if math.isfinite(begins_s)
+            else "does not go off"
+            if zone.fires
+            else Text("misfires")
+        )
+        yield (
+            given(zone.name),
+            Text(
+                "{}, {} {} to {}, {}, {}",
+                self.member.name,
+                zone.along,
+                Quantity(begin_m, "m", "g", shown=False),
+                Quantity(end_m, "m", "g"),
+                holes,
+                when,
+            ),
+        )
         limits = f"breaks from {self.thresholds.break_kg_m3:.2f}, is thrown out from {self.thresholds.throw_kg_m3:.2f}"
-        yield "", f"{self.specific_kg_m3:.2f} kg/m³ in {self.volume_m3:.3f} m³ ({limits}): {self.effect}"
+        yield (
+            "",
+            Text(
+                "{} in {} ({}): {}",
+                Quantity(self.specific_kg_m3, "kg/m³", ".2f"),
+                Quantity(self.volume_m3, "m³", ".3f"),
+                limits,
+                self.effect,
+            ),
+        )
         if self.bars:
             in_run = "" if scenario.connections.is_elastic else "; rigid connections leave them out of a run"
             yield "", f"{self.bars.text} resist {self.cage_text}{in_run}"

@@ -25,6 +25,7 @@ from ...engineering.drilled_charges.fragments import (
     speed_for_range_m_s,
 )
 from ...engineering.geometry.plan_areas import united
+from ...texts import Text
 from ..schema import given
 from .blast_zones import PlacedZone
 
@@ -33,7 +34,7 @@ FRAGMENTS_A_ZONE = 2000
 HAZARD_KG = 0.1
 """Lighter fragments do not count for ranges."""
 
-NO_SAFETY_DISTANCE = "within a factor of 2, and no safety distance"
+NO_SAFETY_DISTANCE = Text("within a factor of 2, and no safety distance")
 
 _LEAST_SHARE, _MOST_SHARE = 1e-4, 1.0 - 1e-4
 """Sizes lie between those that so much of the mass is smaller than: the law has no end of its own."""
@@ -92,7 +93,7 @@ def flyrock_of_zones(
     )
 
 
-DOUBT = "factor 2, no safety distance"
+DOUBT = Text("factor 2, no safety distance")
 
 _SEGMENTS = 96
 

@@ -18,6 +18,7 @@ from ...engineering.statistics.binomial import lower_limit, upper_limit
 from ...engineering.statistics.order_limits import achieved_confidence, coverage, least_runs, most_support, nth_largest
 from ...engineering.statistics.repetition import repeated_limit
 from ...errors import OutputError
+from ...texts import Text
 from .file import Study
 from .fragments import FragmentLimits, fragment_limits
 from .runs_table import REACH, TRUSTED_REACH, RunsTable
@@ -140,10 +141,10 @@ def conclusions(study: Study, table: RunsTable) -> Conclusions:
         statuses=dict(sorted(Counter(row.status for row in table.rows).items())),
         reach=debris_limit(table.largest(REACH), settings.quantile, confidence, settings.rank),
         criteria=tuple(
-            proportion(f"met the criterion {criterion.name}", which, confidence)
+            proportion(Text("met the criterion {}", criterion.name), which, confidence)
             for criterion, which in zip(study.criteria, met, strict=True)
         ),
-        success=proportion("met all criteria", np.all(met, axis=0), confidence) if met else None,
+        success=proportion(Text("met all criteria"), np.all(met, axis=0), confidence) if met else None,
         at_once=simultaneous_limits(
             {name: table.largest(name) for name in SIMULTANEOUS}, settings.quantile, confidence
         ),

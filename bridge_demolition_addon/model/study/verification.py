@@ -12,6 +12,7 @@ import numpy as np
 from manifold3d import CrossSection
 
 from ...engineering.geometry.plan_areas import signed_area
+from ...texts import Text
 from ..scenario import Zone
 from .conclusions import Proportion, proportion
 
@@ -37,4 +38,4 @@ def proportion_leaving(zone: Zone, swept: Iterable[Sequence[np.ndarray] | None],
     counts as one that left the zone.
     """
     left = [rings is None or (bool(len(rings)) and not holds(zone, CrossSection(list(rings)))) for rings in swept]
-    return proportion(f"left the zone {zone.name}", np.array(left, bool), confidence)
+    return proportion(Text("left the zone {}", zone.name), np.array(left, bool), confidence)

@@ -15,6 +15,7 @@ from ...engineering.terrain.recorded import NamedSurface, RecordedGround
 from ...engineering.terrain.surface import Surface
 from ...engineering.terrain.thinning import Grid, thinned
 from ...errors import GeometryError
+from ...texts import Quantity, Text
 from ..actions import Fact
 from ..scenario import Scenario
 from .placed import Terrain, terrain_of
@@ -184,7 +185,7 @@ def terrain_summary(facts: TerrainFacts) -> list[tuple[str, str]]:
     lines = [
         ("from", f"{facts.name}, {facts.heights} heights on the site"),
         ("made", f"{facts.triangles} triangles, the least with sides of {facts.step_m:.3g} m"),
-        ("heights", f"from {facts.lowest_m:.2f} m to {facts.highest_m:.2f} m"),
+        ("heights", Text("from {} to {}", Quantity(facts.lowest_m, "m", ".2f"), Quantity(facts.highest_m, "m", ".2f"))),
         (
             "error",
             f"{facts.largest_error_m:.3f} m at most, near ({x:.1f}, {y:.1f}) m; 95 % of the heights within "
@@ -192,7 +193,7 @@ def terrain_summary(facts: TerrainFacts) -> list[tuple[str, str]]:
         ),
     ]
     if facts.filled_in_share > 0.0:
-        share = f"{100.0 * facts.filled_in_share:.1f} %"
+        share = Text("{} %", f"{100.0 * facts.filled_in_share:.1f}")
         lines.append(("without data", f"{share} of the site: level on from the nearest height"))
     lines += [
         (f"under {member.name}", f"dug up to {member.dug_m:.2f} m, filled up to {member.filled_m:.2f} m")
@@ -207,4 +208,4 @@ def terrain_facts(ground: BuiltGround) -> Iterator[Fact]:
         yield from terrain_summary(ground.facts)
     recorded = ground.recorded()
     for surface in recorded.surfaces:
-        yield surface.name, f"{surface.kind}, {recorded.shown(surface).area():.1f} m² in plan"
+        yield surface.name, Text("{}, {} in plan", surface.kind, Quantity(recorded.shown(surface).area(), "m²", ".1f"))

@@ -13,7 +13,8 @@ from typing import Any, Self
 
 from matplotlib.figure import FigureBase
 
-from ...engineering.units import with_digits
+from ...engineering.unit_systems import NEAREST, UP, Unit
+from ...engineering.units import name_and_unit, with_digits
 from ...model.scenario.reporting import ReportSettings
 from ...model.schema import given
 from ...system.csv_tables import csv_cell
@@ -40,15 +41,21 @@ class Listing:
 
 @dataclass(frozen=True, slots=True)
 class Column:
-    """A column of a table: its heading for people, and the key that heads it in the CSV file, both with the unit."""
+    """A column of a table: its heading for people, which gets its unit, and the key that heads it in CSV files."""
 
     heading: str
-    key: str
+    key: str  # ends in the unit
     form: str = ""  # Python's format of a number, such as ".1f"; empty for texts
     value: Callable[..., Any] | None = None  # of a row, by its item; None where rows are given to the table
     significant: int = 0  # digits that a number with decimals has at least
+    unit: str | None = None  # behind the heading; None for that at the end of the key
+    is_reach: bool = False  # a distance that people keep or debris may reach, which is never rounded down
     of_row: bool = False  # its numbers have the unit that the row gives, beside its name or in a column of units
-    cites: bool = False  # its texts are sources, by the titles that they have in every language
+
+    @property
+    def shown_unit(self) -> Unit:
+        """Return the unit behind its heading; empty without one."""
+        return Unit(name_and_unit(self.key)[1] if self.unit is None else self.unit, UP if self.is_reach else NEAREST)
 
     def shown(self, value: Any) -> str:
         """Return a value as people read it."""
@@ -149,15 +156,14 @@ class Document:
 class Report:
     """A report that is to be written, with tables that are only files, and files that are written already.
 
-    Of a run or a study there are single pages, too, by whom they are for. `names` are those of things in scenario and
-    scene: no language translates them. `settings` are the units and the language that its scenario asks for.
+    Of a run or a study there are single pages, too, by whom they are for. `settings` are the units and the language
+    that its scenario asks for.
     """
 
     document: Document
     tables: tuple[DataTable, ...] = ()
     files: tuple[Path, ...] = ()
     single_pages: Mapping[str, Document] = field(default_factory=dict)
-    names: frozenset[str] = frozenset()
     settings: ReportSettings = field(default_factory=ReportSettings)
 
 

@@ -11,9 +11,7 @@ from matplotlib.figure import Figure
 
 from ...charts.style import MM_PER_INCH, PAGE_WIDTH_MM, POINTS_PER_INCH, blank_figure, lay_out
 from ..languages.figures import translate_figure
-from ..languages.translation import Translation
-from ..units.measured_figures import measure_figure
-from ..units.quantities import ReportUnits
+from ..languages.translation import IN_ENGLISH, Translation
 from .blocks import Document, Picture
 
 Drawings = Mapping[Picture, Figure]
@@ -26,33 +24,29 @@ IMAGE_DOTS_PER_INCH = 100.0
 def drawings(
     documents: Document | Iterable[Document],
     finished: Callable[[int, int], None] = lambda *_: None,
-    translation: Translation | None = None,
-    quantities: ReportUnits | None = None,
+    translation: Translation = IN_ENGLISH,
 ) -> Drawings:
     """Draw all pictures of documents once; `finished` is called with how many are drawn, and how many there are.
 
-    Their texts are put into the language of `translation`, and into the units of `quantities`, if any.
+    Their texts are put into the language and the units of `translation`.
     """
     each = [documents] if isinstance(documents, Document) else documents
     blocks = (block for document in each for block in document.blocks())
     pictures = list(dict.fromkeys(block for block in blocks if isinstance(block, Picture)))
     drawn = {}
     for number, picture in enumerate(pictures, start=1):
-        drawn[picture] = drawing(picture, translation, quantities)
+        drawn[picture] = drawing(picture, translation)
         finished(number, len(pictures))
     return drawn
 
 
-def drawing(picture: Picture, translation: Translation | None = None, quantities: ReportUnits | None = None) -> Figure:
+def drawing(picture: Picture, translation: Translation = IN_ENGLISH) -> Figure:
     """Draw a picture as wide as a page, laid out for good: writing it does not lay it out again."""
     size = PAGE_WIDTH_MM / MM_PER_INCH, picture.height_mm / MM_PER_INCH
     # The dots of SVG and PDF are points.
     figure = blank_figure(*size, FigureCanvasSVG, layout="constrained", dpi=POINTS_PER_INCH)
     picture.draw(figure)
-    if translation is not None:
-        translate_figure(figure, translation)
-    if quantities is not None:
-        measure_figure(figure, quantities)
+    translate_figure(figure, translation)
     lay_out(figure)
     return figure
 

@@ -11,6 +11,7 @@ from html import escape
 from pathlib import Path
 
 from ...system.disk import write_whole_text
+from ...texts import Text
 from ..languages.translation import IN_ENGLISH, Translation
 from .blocks import AnimatedModel, Block, DataTable, Document, Listing, Paragraph, Photo, Picture, Section
 from .drawings import Drawings, svg
@@ -20,7 +21,7 @@ _ALLOWED = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script
 
 _VIEWER = Path(__file__).with_name("viewer.js")
 
-_SPEEDS = {1: "real time", 5: "5 times slower", 20: "20 times slower"}
+_SPEEDS = {1: "real time", 5: Text("{} times slower", 5), 20: Text("{} times slower", 20)}
 
 _SHORT_TABLE_ROWS = 16
 """Tables of no more rows are not broken over pages."""
@@ -112,9 +113,9 @@ def _figure(kind: str, content: bytes, title: str) -> str:
 
 
 def _model(model: AnimatedModel, translation: Translation) -> str:
-    play, stop, time, speed = (escape(translation.text(word)) for word in ("Play", "Stop", "time", "speed"))
+    play, stop, time, speed = (escape(translation.pattern(word)) for word in ("Play", "Stop", "time", "speed"))
     speeds = "".join(
-        f'<option value="{slower}">{escape(translation.text(text))}</option>' for slower, text in _SPEEDS.items()
+        f'<option value="{slower}">{escape(translation.label(text))}</option>' for slower, text in _SPEEDS.items()
     )
     return (
         f'<figure class="model" data-model="{model.packed}">\n<canvas aria-label="{escape(model.title)}"></canvas>\n'

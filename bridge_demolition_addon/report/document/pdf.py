@@ -13,6 +13,7 @@ import numpy as np
 
 from ...charts.style import PAGE_WIDTH_MM
 from ...system.disk import whole_file
+from ...texts import Text
 from ..languages.translation import IN_ENGLISH, Translation
 from .blocks import Block, DataTable, Document, Listing, Paragraph, Picture
 from .drawings import Drawings
@@ -86,7 +87,7 @@ def laid_out(document: Document, drawings: Drawings, translation: Translation = 
         pages.section(f"{number} {section.title}", section.blocks)
     title = shortened(document.title, PAGE_WIDTH_MM - 40.0, SMALL)
     for number, page in enumerate(pages.pages, start=1):
-        foot = translation.text(f"page {number} of {len(pages.pages)}")
+        foot = translation.text(Text("page {} of {}", number, len(pages.pages)))
         _put(page, title, SMALL, LEFT_MM, FOOT_MM)
         _put(page, foot, SMALL, LEFT_MM + PAGE_WIDTH_MM - width_mm(foot, SMALL), FOOT_MM)
     return pages.pages

@@ -13,7 +13,6 @@ from matplotlib.figure import Figure
 
 from ...charts.style import PAGE_WIDTH_MM
 from ...system.disk import whole_file
-from ..languages.patterns import PLACE
 from ..languages.translation import IN_ENGLISH, Translation
 from .blocks import AnimatedModel, Block, DataTable, Document, Listing, Paragraph, Photo, Picture
 from .drawings import Drawings
@@ -91,7 +90,7 @@ class _Word:
         self._file.add_paragraph(document.subtitle, "Subtitle")
         self.add(document.summary)
         foot = self._file.sections[0].footer.paragraphs[0]
-        before, between, after = self._translation.pattern("page {} of {}").split(PLACE)
+        before, between, after = self._translation.pattern("page {} of {}").split("{}")
         foot.add_run(f"{document.title}\t{before}")
         _add_field(foot, "PAGE")
         foot.add_run(between)

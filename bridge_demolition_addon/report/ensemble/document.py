@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from ...model.results.solver_energy import LARGE_SHARE
 from ...model.study.file import Study
 from ...model.study.runs_table import DONE
+from ...texts import Text, joined
 from ..document.blocks import Block, Document, Listing, Paragraph, Section, facts
 from ..sections.cover import trust_section
 from ..wording.numbers import percent
@@ -15,9 +16,9 @@ from .criteria import criteria_section
 from .influence import influence_section, varied_section
 from .reported_ensemble import ReportedEnsemble
 
-_AS_SAMPLED = (
-    "Statements say how the model scatters over the inputs that vary, from the distributions that were given. Wrong "
-    "distributions, inputs that scatter and do not vary here, and errors of the model are in none of them."
+_AS_SAMPLED = Text(
+    "Statements say how the model scatters over the inputs that vary, from the distributions that were given. "
+    "Wrong distributions, inputs that scatter and do not vary here, and errors of the model are in none of them."
 )
 _MOST_NAMED = 8
 _REST, _MADE = "came_to_rest_s", "made_by_solver_share"
@@ -49,10 +50,8 @@ def ensemble_document(
         _files_section(runs, version, asked),
     )
     article = "an" if ensemble.kind[0] in "aeiou" else "a"
-    subtitle = (
-        f"Report of {article} {ensemble.kind} with {len(runs.table)} simulated demolitions. Bridge Demolition Add-on "
-        f"{version}"
-    )
+    of_kind = f"Report of {article} {ensemble.kind} with {{}} simulated demolitions. Bridge Demolition Add-on {{}}"
+    subtitle = Text(of_kind, len(runs.table), version)
     return Document(ensemble.scenario.title, subtitle, tuple(filter(None, sections)), summary)
 
 
@@ -66,10 +65,19 @@ def statement_section(runs: ReportedEnsemble, sentences: Sequence[str], warnings
 
 def unfinished_sentence(runs: ReportedEnsemble, total: int) -> str:
     """Return how far an ensemble is that goes on."""
-    kind, up_to = runs.ensemble.kind, "" if isinstance(runs.ensemble, Study) else "up to "
-    return (
-        f"{len(runs.table)} of {up_to}{total} runs are there: the {kind} states nothing before all that it needs are. "
-        "Go on with the command that started it."
+    kind, counts = Text(runs.ensemble.kind), (len(runs.table), total)
+    if isinstance(runs.ensemble, Study):
+        return Text(
+            "{} of {} runs are there: the {} states nothing before all that it needs are. Go on with the command "
+            "that started it.",
+            *counts,
+            kind,
+        )
+    return Text(
+        "{} of up to {} runs are there: the {} states nothing before all that it needs are. Go on with the "
+        "command that started it.",
+        *counts,
+        kind,
     )
 
 
@@ -78,21 +86,32 @@ def doubts_of(runs: ReportedEnsemble) -> Iterator[str]:
     table = runs.table
     lost = [row for row in table.rows if row.status != DONE]
     if lost:
-        named = ", ".join(f"{row.number} ({row.status.replace('_', ' ')})" for row in lost[:_MOST_NAMED])
-        others = " and others" if len(lost) > _MOST_NAMED else ""
-        yield f"{len(lost)} of {len(table)} runs did not finish: {named}{others}."
+        named = [Text("{} ({})", row.number, Text(row.status.replace("_", " "))) for row in lost[:_MOST_NAMED]]
+        others = "{} of {} runs did not finish: {} and others."
+        every = "{} of {} runs did not finish: {}."
+        yield Text(others if len(lost) > _MOST_NAMED else every, len(lost), len(table), joined("{}, {}", named))
     moving = sum(row.status == DONE and row.outputs.get(_REST) is None for row in table.rows)
     if moving and _REST in table.outputs:
         yield (
-            f"In {moving} of {len(table)} runs not everything had rested for "
-            f"{runs.ensemble.scenario.time.rest_hold_s:g} s when their time was over: debris may have gone on. Give "
-            "the scenario a longer time.duration_s."
+            Text(
+                "In {} of {} runs not everything had rested for {} s when their time was over: debris may have "
+                "gone on. Give the scenario a longer time.duration_s.",
+                moving,
+                len(table),
+                f"{runs.ensemble.scenario.time.rest_hold_s:g}",
+            )
         )
     made = [row.outputs.get(_MADE) or 0.0 for row in table.rows if row.status == DONE]
     if most := sum(share > LARGE_SHARE for share in made):
         yield (
-            f"In {most} of {len(table)} runs the solver made more than {percent(LARGE_SHARE)} of what was dissipated, "
-            f"up to {100.0 * max(made):.1f} %: debris may be thrown too far."
+            Text(
+                "In {} of {} runs the solver made more than {} of what was dissipated, up to {} %: debris may be "
+                "thrown too far.",
+                most,
+                len(table),
+                percent(LARGE_SHARE),
+                f"{100.0 * max(made):.1f}",
+            )
         )
 
 
@@ -100,17 +119,18 @@ def _files_section(runs: ReportedEnsemble, version: str, asked: Iterable[tuple[s
     """Return the settings of the runs and their files, so that they can be repeated."""
     ensemble, kind = runs.ensemble, runs.ensemble.kind
     rows = [
-        ("Scenario", ensemble.scenario.title),
-        ("Folder", runs.name),
+        (Text("Scenario"), ensemble.scenario.title),
+        (Text("Folder"), runs.name),
         *asked,
-        ("Varied", ", ".join(input_names(ensemble))),
-        (f"Seed of the {kind}", str(ensemble.settings.seed)),
-        ("Run with", ", ".join(f"{name.replace('_', ' ')} {number}" for name, number in runs.versions.items())),
+        (Text("Varied"), joined("{}, {}", input_names(ensemble))),
+        (Text(f"Seed of the {kind}"), str(ensemble.settings.seed)),
+        (Text("Run with"), ", ".join(f"{name.replace('_', ' ')} {number}" for name, number in runs.versions.items())),
         ("Bridge Demolition Add-on", version),
     ]
-    use = (
-        f"With these two files and the versions above the {kind} can be repeated: the same files give the same runs, "
-        "and the same runs the same outcomes."
+    use = Text(
+        "With these two files and the versions above the {} can be repeated: the same files give the same runs, "
+        "and the same runs the same outcomes.",
+        Text(kind),
     )
     files = Listing(ensemble.text), Listing(ensemble.scenario_text)
     return Section(f"The {kind} and its scenario", (facts(f"The {kind}", rows, kind), Paragraph(use), *files))

@@ -11,6 +11,7 @@ from ...charts.plan_maps import map_height_mm
 from ...charts.study_plan import study_plan
 from ...model.structure.zone_fragments import DOUBT
 from ...model.study.fragments import FragmentLimits
+from ...texts import Text
 from ..charge_areas import cordon_area
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section
 from ..wording.numbers import percent
@@ -20,7 +21,7 @@ from .study_runs import StudyRuns
 
 _COLUMNS = (
     Column("", "what"),
-    Column("distance (m)", "distance_m", ".0f"),
+    Column("distance", "distance_m", ".0f", is_reach=True),
     Column("confidence", "confidence", ".2%"),
 )
 
@@ -37,19 +38,19 @@ def fragments_section(runs: StudyRuns) -> Section | None:
 
 
 def _table(limits: FragmentLimits, cordon_m: float | None) -> DataTable:
-    of_runs = f"limit for {percent(limits.quantile)} of runs"
+    of_runs = Text("limit for {} of runs", percent(limits.quantile))
     sure = limits.achieved_confidence
     rows: list[tuple[str, float | None, float | None]] = [
-        (f"50 % of their mass, {of_runs}", limits.half_m, sure),
-        (f"99 % of their mass, {of_runs}", limits.most_m, sure),
-        (f"99.9 % of their mass, {of_runs}", limits.nearly_all_m, sure),
-        (f"farthest fragment, {of_runs}", limits.largest_m, sure),
-        ("Lundborg, without a cover", limits.lundborg_m, None),
-        ("McKenzie, without a cover", limits.mckenzie_m, None),
-        ("cordon around the bridge's plan", cordon_m, None),
+        (Text("50 % of their mass, {}", of_runs), limits.half_m, sure),
+        (Text("99 % of their mass, {}", of_runs), limits.most_m, sure),
+        (Text("99.9 % of their mass, {}", of_runs), limits.nearly_all_m, sure),
+        (Text("farthest fragment, {}", of_runs), limits.largest_m, sure),
+        (Text("Lundborg, without a cover"), limits.lundborg_m, None),
+        (Text("McKenzie, without a cover"), limits.mckenzie_m, None),
+        (Text("cordon around the bridge's plan"), cordon_m, None),
     ]
     known = [row for row in rows if row[1] is not None and np.isfinite(row[1])]
-    return DataTable("fragment_limits", f"Distances from the blast zone: {DOUBT}", _COLUMNS, known)
+    return DataTable("fragment_limits", Text("Distances from the blast zone: {}", DOUBT), _COLUMNS, known)
 
 
 def _picture(runs: StudyRuns) -> Iterator[Block]:
@@ -67,6 +68,6 @@ def _picture(runs: StudyRuns) -> Iterator[Block]:
             zones=scenario.zones,
             neighbours=scenario.neighbours,
         ),
-        f"Circles around the blast zones that parts of the mass in fragments stay within: {DOUBT}.",
+        Text("Circles around the blast zones that parts of the mass in fragments stay within: {}.", DOUBT),
         map_height_mm((*bounds[:, :2].min(axis=0), *bounds[:, 2:].max(axis=0))),
     )

@@ -21,6 +21,7 @@ from ...engineering.statistics.ranks import correlation_by_chance, rank_correlat
 from ...model.study.distributions import Distribution
 from ...model.study.file import Study, Variation
 from ...model.study.shown_names import shown
+from ...texts import Text, joined
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section
 from .reported_ensemble import ReportedEnsemble
 
@@ -38,7 +39,7 @@ def varied_section(runs: ReportedEnsemble) -> Section:
         Column("highest", "highest", ".5g", of_row=True),
     )
     rows = [_varied_row(runs, variation) for variation in runs.ensemble.variations]
-    words = (
+    words = Text(
         "All inputs are sampled for each run, independently of each other. So is the seed of the fracture, which "
         "decides how the shards are cut."
     )
@@ -53,16 +54,21 @@ def influence_section(runs: ReportedEnsemble) -> Section | None:
     if not runs.varied or not runs.numbers or finished < 3:
         return None
     by_chance = correlation_by_chance(finished)
-    first = f"first {MOST_DOTS} of the " if finished > MOST_DOTS else ""
-    words = (
-        f"Each dot is one of the {first}{finished} runs that finished. The rank correlation is 1 where an output "
-        "always rises with an input, and -1 where it always falls. Of inputs that do not matter at all one in twenty "
-        f"has by chance more than {by_chance:.2f} either way; larger ones are in bold. Small ones may hide an input "
-        "that pushes both ways: look at the dots. What no input explains is chance: the fracture, and the course of a "
-        "collapse."
+    counted = Text("first {} of the {}", MOST_DOTS, finished) if finished > MOST_DOTS else str(finished)
+    words = Text(
+        "Each dot is one of the {} runs that finished. The rank correlation is 1 where an output always rises "
+        "with an input, and -1 where it always falls. Of inputs that do not matter at all one in twenty has by "
+        "chance more than {} either way; larger ones are in bold. Small ones may hide an input that pushes both "
+        "ways: look at the dots. What no input explains is chance: the fracture, and the course of a collapse.",
+        counted,
+        f"{by_chance:.2f}",
     )
     if not isinstance(runs.ensemble, Study):
-        words += f" Values that the {runs.ensemble.kind} chose gather where it looked most: they are not independent."
+        words = Text(
+            "{} Values that the {} chose gather where it looked most: they are not independent.",
+            words,
+            Text(runs.ensemble.kind),
+        )
     blocks: list[Block] = [Paragraph(words)]
     if cells := correlations_of(runs):
         inputs, outputs = (list(dict.fromkeys(column)) for column in list(zip(*cells, strict=True))[:2])
@@ -74,7 +80,7 @@ def influence_section(runs: ReportedEnsemble) -> Section | None:
             correlations=np.array([[values.get((name, output), math.nan) for output in outputs] for name in inputs]),
             by_chance=by_chance,
         )
-        title = "Rank correlation of each output with each input, in the order of the strongest."
+        title = Text("Rank correlation of each output with each input, in the order of the strongest.")
         blocks.append(Picture(picture, title, correlation_map_height_mm(len(inputs))))
     for output in runs.numbers:
         blocks += _panels(runs, output)
@@ -104,13 +110,14 @@ def correlation_table(runs: ReportedEnsemble) -> DataTable:
 
 def _varied_row(runs: ReportedEnsemble, variation: Variation) -> tuple:
     values = runs.table.input(variation.key.name) if variation.key.name in runs.table.inputs else np.zeros(0)
-    name = type(variation.distribution).__name__.lower()
-    settings = ", ".join(_settings(variation.distribution))
-    factor = ", as a factor" if variation.factor else ""
+    name = Text(type(variation.distribution).__name__.lower())
+    how = Text("{}: {}", name, joined("{}, {}", _settings(variation.distribution)))
+    if variation.factor:
+        how = Text("{}, as a factor", how)
     if values.dtype == object or not len(values):
-        return shown(variation.key.name), f"{name}: {settings}{factor}", None, None, None
+        return shown(variation.key.name), how, None, None, None
     ends = float(values.min()), float(np.median(values)), float(values.max())
-    return shown(variation.key.name), f"{name}: {settings}{factor}", *ends
+    return shown(variation.key.name), how, *ends
 
 
 def _settings(distribution: Distribution) -> Iterator[str]:
@@ -118,7 +125,7 @@ def _settings(distribution: Distribution) -> Iterator[str]:
     for item in fields(distribution):
         value = getattr(distribution, item.name)
         if value != item.default:
-            yield f"{item.name.replace('_', ' ')} {_words(value)}"
+            yield Text(f"{item.name.replace('_', ' ')} {{}}", _words(value))
 
 
 def _words(value: object) -> str:
@@ -150,7 +157,7 @@ def _panels(runs: ReportedEnsemble, output: str) -> list[Picture]:
     return [
         Picture(
             partial(output_against_inputs, label=shown(output), values=values, panels=page),
-            f"{shown(output)} against what varied.",
+            Text("{} against what varied.", shown(output)),
             output_panels_height_mm(len(page)),
         )
         for page in pages

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...model.study.shown_names import shown
+from ...texts import Text
 from ..document.blocks import Column, DataTable, Paragraph, Section
 from .study_runs import StudyRuns
 
@@ -26,10 +27,12 @@ def neighbours_section(runs: StudyRuns) -> Section | None:
             continue
         known = values[np.isfinite(values)]
         if len(known):
-            label = shown(name).removeprefix(_OF_NEIGHBOURS.replace(".", " "))
+            label = shown(name.removeprefix(_OF_NEIGHBOURS))
             rows.append((label, float(np.median(known)), float(known.max()), len(known)))
     if not rows:
         return None
-    words = "The largest of these runs is no limit: other runs may have more. Criteria of the study say how often."
+    words = Text(
+        "The largest of these runs is no limit: other runs may have more. Criteria of the study say how often."
+    )
     table = DataTable("neighbours_of_runs", "At the neighbours, of the runs that finished", _COLUMNS, rows)
     return Section("Neighbours", (Paragraph(words), table))

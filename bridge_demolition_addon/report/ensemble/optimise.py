@@ -13,23 +13,24 @@ from ...model.optimise.conclusions import CANDIDATE, ROUND, Best, TriedCandidate
 from ...model.optimise.file import Optimisation
 from ...model.optimise.rounds import CONFIRMATION
 from ...model.study.runs_table import RunsTable
-from ...model.study.shown_names import shown
+from ...model.study.shown_names import words_and_unit
 from ...system.progress import Progress
+from ...texts import Quantity, Text, joined
 from ...version import VERSION
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Report, Section
 from ..wording.numbers import percent
 from ..wording.optimise import optimise_sentences
 from .document import doubts_of, ensemble_document, statement_section, unfinished_sentence
 from .influence import correlation_table
-from .reported_ensemble import ReportedEnsemble, names_of_runs
+from .reported_ensemble import ReportedEnsemble
 from .runs import runs_section
 
 _MOST_CANDIDATES = 200
-_STATISTICS = (
-    "Candidates are proposed by a tree-structured Parzen estimator (Bergstra et al. 2011). Choosing the best of many "
-    "that scatter chooses luck as well (winner's curse): so the finalists, and the one that is chosen, are run again "
-    "with inputs by chance that were not used before. Only these fresh runs make statements: the limit by rank after "
-    "Wilks (1941), the probability after Clopper and Pearson (1934)."
+_STATISTICS = Text(
+    "Candidates are proposed by a tree-structured Parzen estimator (Bergstra et al. 2011). Choosing the best of "
+    "many that scatter chooses luck as well (winner's curse): so the finalists, and the one that is chosen, are "
+    "run again with inputs by chance that were not used before. Only these fresh runs make statements: the limit "
+    "by rank after Wilks (1941), the probability after Clopper and Pearson (1934)."
 )
 
 
@@ -64,25 +65,46 @@ def optimise_report(runs: TriedCandidates, _target: Path, _progress: Progress) -
     asked = _asked(optimisation, runs)
     document = ensemble_document(runs, version, statement, pictures, tables, _STATISTICS, asked)
     settings = runs.ensemble.scenario.report
-    return Report(document, (correlation_table(runs),), names=names_of_runs(runs), settings=settings)
+    return Report(document, (correlation_table(runs),), settings=settings)
 
 
 def _asked(optimisation: Optimisation, runs: ReportedEnsemble) -> Iterator[tuple[str, str]]:
     settings = optimisation.settings
-    yield "Runs", f"{len(runs.table)} of up to {settings.runs}, {int(runs.table.done.sum())} of them finished"
-    yield "Asked", f"the smallest {settings.objective}, as the {settings.quantile:g} quantile of a candidate's runs"
     yield (
-        "Has to hold",
-        f"all criteria with {percent(settings.probability)} probability, at {percent(settings.confidence)} confidence",
+        Text("Runs"),
+        Text("{} of up to {}, {} of them finished", len(runs.table), settings.runs, int(runs.table.done.sum())),
     )
     yield (
-        "Rounds",
-        (
-            f"{settings.candidates} candidates, runs of each: {settings.runs_each}; {settings.finalists} finalists, "
-            f"fresh runs of each: {settings.finalist_runs}; fresh runs of the one chosen: {settings.confirmation_runs}"
+        Text("Asked"),
+        Text(
+            "the smallest {}, as the {} quantile of a candidate's runs",
+            Text(settings.objective),
+            f"{settings.quantile:g}",
         ),
     )
-    yield "What may change", ", ".join(optimisation.space.names)
+    yield (
+        Text("Has to hold"),
+        Text(
+            "all criteria with {} probability, at {} confidence",
+            percent(settings.probability),
+            percent(settings.confidence),
+        ),
+    )
+    yield (
+        Text("Rounds"),
+        (
+            Text(
+                "{} candidates, runs of each: {}; {} finalists, fresh runs of each: {}; fresh runs of the one "
+                "chosen: {}",
+                settings.candidates,
+                settings.runs_each,
+                settings.finalists,
+                settings.finalist_runs,
+                settings.confirmation_runs,
+            )
+        ),
+    )
+    yield Text("What may change"), joined("{}, {}", optimisation.space.names)
 
 
 def _warnings(best: Best | None) -> Iterator[str]:
@@ -90,12 +112,15 @@ def _warnings(best: Best | None) -> Iterator[str]:
     if best is None:
         return
     if not best.is_confirmed:
-        yield "The chosen candidate is not confirmed: its fresh runs met the criteria too rarely. Do not use it."
+        yield Text("The chosen candidate is not confirmed: its fresh runs met the criteria too rarely. Do not use it.")
     if best.looked_better_by > 0.0 and best.searched.value > 0.0:
         unit = best.optimisation.settings.unit
         yield (
-            f"Winner's curse: in the search the chosen candidate looked better by {best.looked_better_by:.4g} {unit} "
-            "than on fresh runs. Other candidates of the search look too good as well: trust the fresh runs alone."
+            Text(
+                "Winner's curse: in the search the chosen candidate looked better by {} than on fresh runs. Other "
+                "candidates of the search look too good as well: trust the fresh runs alone.",
+                Quantity(best.looked_better_by, unit, ".4g"),
+            )
         )
 
 
@@ -107,15 +132,17 @@ def _winner_section(best: Best) -> Section:
         Column("round", "round"),
         Column("runs", "runs", "d"),
         Column("met all criteria", "successes", "d"),
-        Column(f"{settings.objective} ({unit})", "objective", ".4g"),
+        Column(settings.objective, "objective", ".4g", unit=unit),
     )
-    rounds = (("search", best.searched), ("final", best.final), ("confirmation", best.confirmed))
+    rounds = ((Text("search"), best.searched), (Text("final"), best.final), (Text("confirmation"), best.confirmed))
     rows = [(name, result.runs, result.successes, result.value) for name, result in rounds]
-    blocks: list[Block] = [DataTable("chosen_candidate", f"Candidate {best.candidate} in each round", columns, rows)]
+    blocks: list[Block] = [
+        DataTable("chosen_candidate", Text("Candidate {} in each round", best.candidate), columns, rows)
+    ]
     if any(candidate.charge_kg > 0.0 for candidate in best.tried):
-        caption = (
-            "Charge and debris distance of all candidates in the search, and those that no other beats in both. They "
-            "rest on few runs each."
+        caption = Text(
+            "Charge and debris distance of all candidates in the search, and those that no other beats in both. "
+            "They rest on few runs each."
         )
         blocks.append(Picture(partial(tradeoff, best=best), caption, 110.0))
     return Section("The chosen candidate", tuple(blocks))
@@ -126,12 +153,12 @@ def _candidates_section(tried: Sequence[TriedCandidate], best: Best | None, unit
     names = list(tried[0].values) if tried else []
     columns = (
         Column("candidate", "candidate", "d"),
-        *(Column(shown(name), name, ".4g") for name in names),
-        Column(f"objective ({unit})", "objective", ".4g"),
+        *(Column(words, name, ".4g", unit=own) for name in names for words, own in [words_and_unit(name)]),
+        Column("objective", "objective", ".4g", unit=unit),
         Column("met all", "successes", "d"),
         Column("of", "runs", "d"),
-        Column("charge (kg)", "charge_kg", ".4g"),
-        Column("debris distance (m)", "reach_m", ".4g"),
+        Column("charge", "charge_kg", ".4g"),
+        Column("debris distance", "reach_m", ".4g", is_reach=True),
         Column("", "remark"),
     )
     ordered = sorted(tried, key=lambda candidate: (not candidate.holds, candidate.result.value, candidate.number))
@@ -157,7 +184,7 @@ def _candidates_section(tried: Sequence[TriedCandidate], best: Best | None, unit
 
 def _remark(candidate: TriedCandidate, best: Best | None) -> str:
     if best and candidate.number == best.candidate:
-        return "chosen"
+        return Text("chosen")
     if not candidate.holds:
-        return "fails too often"
-    return "no other has less of both" if candidate.on_front else ""
+        return Text("fails too often")
+    return Text("no other has less of both") if candidate.on_front else ""

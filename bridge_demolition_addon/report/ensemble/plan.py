@@ -14,6 +14,7 @@ from ...engineering.statistics.probability_map import LEVELS
 from ...engineering.units import rounded_up
 from ...model.schema import given
 from ...model.study.verification import zone_area
+from ...texts import Text, Unit, distance_to_keep, joined
 from ..charge_areas import areas_of_fragments, cordon_area
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section
 from ..wording.numbers import percent
@@ -31,21 +32,32 @@ def plan_section(runs: StudyRuns, files: Sequence[str]) -> Section:
     scenario = runs.ensemble.scenario
     blocks: list[Block] = [Paragraph("The plan is drawn on the first page.")]
     if scenario.charges:
-        warning = "Pressure of the charges is not on this plan: the report of one run says how far people have to be."
+        warning = Text(
+            "Pressure of the charges is not on this plan: the report of one run says how far people have to be."
+        )
         blocks.append(Paragraph(warning, is_notice=True))
     blocks += [Paragraph(text) for text in _words(runs)]
     rows = [(name, area.area(), *area.bounds()) for name, area in layers(runs).items() if not area.is_empty()]
     blocks.append(DataTable("study_areas", "Areas on the plan", _AREA_COLUMNS, rows))
-    blocks += [Paragraph(f"For the site plan: {', '.join(files)}.")] if files else []
+    blocks += [Paragraph(Text("For the site plan: {}.", joined("{}, {}", files)))] if files else []
     return Section("Plan", tuple(blocks))
 
 
 def layers(runs: StudyRuns) -> dict[str, CrossSection]:
     """Return all areas of a study for a site plan by their names, the largest first."""
     limits = {name: area for name, (_, area) in reversed(runs.limits.items())}
-    zones = {f"zone {zone.name}": zone_area(zone) for zone in runs.ensemble.scenario.zones}
+    zones: dict[str, CrossSection] = {
+        Text("zone {}", zone.name): zone_area(zone) for zone in runs.ensemble.scenario.zones
+    }
     cordon = cordon_area(runs.ensemble.scenario, runs.bridge)
-    return {**areas_of_fragments_in(runs), **cordon, **limits, **_likely_by_words(runs), "bridge": runs.bridge, **zones}
+    return {
+        **areas_of_fragments_in(runs),
+        **cordon,
+        **limits,
+        **_likely_by_words(runs),
+        Text("bridge"): runs.bridge,
+        **zones,
+    }
 
 
 def areas_of_fragments_in(runs: StudyRuns) -> dict[str, CrossSection]:
@@ -58,7 +70,10 @@ def plan_picture(runs: StudyRuns) -> Picture:
     """Return the plan of a study of which a run finished."""
     settings, scenario = runs.ensemble.settings, runs.ensemble.scenario
     likely = _likely_by_words(runs)
-    limits = {f"{name}, {rounded_up(far_m, '0.01')} m": area for name, (far_m, area) in runs.limits.items()}
+    limits: dict[str, CrossSection] = {
+        Text("{}, {}", name, distance_to_keep(rounded_up(far_m, "0.01"))): area
+        for name, (far_m, area) in runs.limits.items()
+    }
     areas = [area for area in (runs.bridge, *likely.values(), *limits.values()) if not area.is_empty()]
     bounds = np.array([area.bounds() for area in areas])
     return Picture(
@@ -70,38 +85,49 @@ def plan_picture(runs: StudyRuns) -> Picture:
             zones=scenario.zones,
             neighbours=scenario.neighbours,
         ),
-        "Where debris was at any time of a run. Shaded: where its probability may be above the one given, with "
-        f"{percent(settings.confidence)} confidence for each position by itself.",
+        Text(
+            "Where debris was at any time of a run. Shaded: where its probability may be above the one given, "
+            "with {} confidence for each position by itself.",
+            percent(settings.confidence),
+        ),
         min(map_height_mm((*bounds[:, :2].min(axis=0), *bounds[:, 2:].max(axis=0))), _HIGHEST_MM),
     )
 
 
 _AREA_COLUMNS = (
     Column("area", "area"),
-    Column("m²", "area_m2", ".1f"),
-    Column("from x (m)", "low_x_m", ".2f"),
-    Column("y (m)", "low_y_m", ".2f"),
-    Column("to x (m)", "high_x_m", ".2f"),
-    Column("y (m)", "high_y_m", ".2f"),
+    Column(Unit("m²"), "area_m2", ".1f", unit=""),
+    Column("from x", "low_x_m", ".2f", is_reach=True),
+    Column("y", "low_y_m", ".2f", is_reach=True),
+    Column("to x", "high_x_m", ".2f", is_reach=True),
+    Column("y", "high_y_m", ".2f", is_reach=True),
 )
 
 
 def _likely_by_words(runs: StudyRuns) -> dict[str, CrossSection]:
-    return {f"probability above {percent(level)}": area for level, area in runs.likely.items()}
+    return {Text("probability above {}", percent(level)): area for level, area in runs.likely.items()}
 
 
 def _words(runs: StudyRuns) -> Iterator[str]:
     settings, likely = runs.ensemble.settings, given(runs.map)
     yield (
-        f"The plan is cut into squares of {likely.cells.side_m:g} m. For each the probability that a run brings "
-        "debris there, even over a corner of it and only for a moment, has an upper limit after Clopper and Pearson. "
-        "These limits hold for each position by itself. For all positions at once there is the limit around the bridge."
+        Text(
+            "The plan is cut into squares of {}. For each the probability that a run brings debris there, even "
+            "over a corner of it and only for a moment, has an upper limit after Clopper and Pearson. These "
+            "limits hold for each position by itself. For all positions at once there is the limit around the "
+            "bridge.",
+            distance_to_keep(likely.cells.side_m, "g"),
+        )
     )
     for level in LEVELS:
         if not likely.resolves(level):
             needed = likely.runs_for(level)
-            why = f"it takes {needed} runs" if likely.runs < needed else f"{likely.unfinished} runs did not finish"
-            yield f"Where the probability is below {percent(level)} cannot be stated: {why}."
+            why = (
+                Text("it takes {} runs", needed)
+                if likely.runs < needed
+                else Text("{} runs did not finish", likely.unfinished)
+            )
+            yield Text("Where the probability is below {} cannot be stated: {}.", percent(level), why)
     if corners := runs.hull_corners:
         yield shape_sentence(corners, settings.quantile, settings.confidence)
     if runs.conclusions:

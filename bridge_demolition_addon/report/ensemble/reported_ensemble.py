@@ -15,8 +15,6 @@ from ...model.ensemble.folder import read_ensemble
 from ...model.optimise.conclusions import CANDIDATE, ROUND
 from ...model.study.file import SEED, Ensemble
 from ...model.study.runs_table import REACH, RunsTable
-from ...model.study.shown_names import shown
-from ..names import names_of
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,13 +63,3 @@ class ReportedEnsemble:
 
 def _finite(values: np.ndarray) -> np.ndarray:
     return values[np.isfinite(values)]
-
-
-def names_of_runs(runs: ReportedEnsemble) -> frozenset[str]:
-    """Return names that no language translates: of scenario, criteria, folder, inputs and outputs, as shown."""
-    criteria = {criterion.name for criterion in runs.ensemble.criteria}
-    keys = {shown(name) for name in (*runs.table.inputs, *runs.table.outputs)} - {shown(REACH)}
-    without_units = {key.rpartition(" (")[0] for key in keys}
-    programs = {f"{name.replace('_', ' ')} {number}" for name, number in runs.versions.items()}
-    named = {runs.name, *criteria, *keys, *without_units, *programs, *runs.table.inputs, *runs.table.outputs} - {""}
-    return names_of(runs.ensemble.scenario) | named

@@ -8,8 +8,10 @@ from typing import Any
 
 import numpy as np
 
+from ...model.optimise.conclusions import ROUND
 from ...model.study.runs_table import DONE, REACH, RunRow
-from ...model.study.shown_names import shown
+from ...model.study.shown_names import is_reach, shown, words_and_unit
+from ...texts import Text, distance_to_keep
 from ..document.blocks import Block, Column, DataTable, Paragraph, Photo, Section
 from .influence import correlations_of
 from .reported_ensemble import ReportedEnsemble
@@ -24,7 +26,7 @@ _MOST_INPUTS, _MOST_OUTPUTS = 3, 3
 _LARGE = 1e4
 """Numbers from which on digits after the point are left out."""
 
-_PICTURES = {"before": "before", "impact": "in the course of the run", "after": "at the end"}
+_PICTURES = {"before": Text("before"), "impact": Text("in the course of the run"), "after": Text("at the end")}
 
 
 def extremes_section(runs: StudyRuns) -> Section | None:
@@ -34,23 +36,27 @@ def extremes_section(runs: StudyRuns) -> Section | None:
     median, worst = runs.table.rows[runs.table.median_row], runs.table.rows[runs.table.worst_row]
     columns = (
         Column("", "quantity"),
-        Column(f"median, run {median.number}", "median", of_row=True),
-        Column(f"worst, run {worst.number}", "worst", of_row=True),
+        Column(Text("median, run {}", median.number), "median", of_row=True),
+        Column(Text("worst, run {}", worst.number), "worst", of_row=True),
     )
     both = [{**row.inputs, **row.outputs} for row in (median, worst)]
     names = (*runs.table.inputs, *runs.table.outputs)
     rows = [(shown(name), *(_text(values.get(name)) for values in both)) for name in names]
     blocks: list[Block] = [
         Paragraph(
-            f"Of the runs that finished, run {median.number} has the median debris distance, and run {worst.number} "
-            "the largest. bda study with --again and the number of a run makes it again, bit for bit, and keeps "
-            "everything of it: logs, scene and pictures."
+            Text(
+                "Of the runs that finished, run {} has the median debris distance, and run {} the largest. bda "
+                "study with --again and the number of a run makes it again, bit for bit, and keeps everything of "
+                "it: logs, scene and pictures.",
+                median.number,
+                worst.number,
+            )
         ),
         DataTable("median_and_worst", "The median and the worst run", columns, rows),
-        *_photos(runs, median, "Median run"),
+        *_photos(runs, median, Text("Median run")),
     ]
     if worst is not median:
-        blocks += _photos(runs, worst, "Worst run")
+        blocks += _photos(runs, worst, Text("Worst run"))
     return Section("The median and the worst run", tuple(blocks))
 
 
@@ -69,17 +75,26 @@ def runs_section(runs: ReportedEnsemble, first: Sequence[str] = ()) -> Section:
     columns = (
         Column("run", "run", "d"),
         Column("status", "status"),
-        Column(shown(REACH), REACH, ".2f"),
-        *(Column(shown(name), name, ".4g") for name in outputs),
-        *(Column(shown(name), name, ".4g" if runs.table.input(name).dtype == float else "") for name in inputs),
+        *(_column(name, ".2f" if name == REACH else ".4g") for name in (REACH, *outputs)),
+        *(_column(name, ".4g" if runs.table.input(name).dtype == float else "") for name in inputs),
         *((Column("criteria met", "criteria_met"),) if runs.criteria else ()),
     )
     rows = [_row(runs, runs.table.rows[row], outputs, inputs) for row in order[:_MOST_RUNS]]
-    words = (
-        "Runs with the largest debris distance come first, and before them those that did not finish. What does not "
-        f"fit here, runs as well as inputs and outputs, is in {runs.ensemble.table_file}."
+    words = Text(
+        "Runs with the largest debris distance come first, and before them those that did not finish. What does "
+        "not fit here, runs as well as inputs and outputs, is in {}.",
+        runs.ensemble.table_file,
     )
     return Section("The runs", (Paragraph(words), DataTable("farthest_draws", "Runs", columns, rows)))
+
+
+def _input(name: str, value: Any) -> Any:
+    return Text(value) if name == ROUND and isinstance(value, str) else value
+
+
+def _column(name: str, form: str) -> Column:
+    words, unit = words_and_unit(name)
+    return Column(words, name, form, unit=unit, is_reach=is_reach(name))
 
 
 def _other_outputs(runs: ReportedEnsemble) -> tuple[str, ...]:
@@ -94,16 +109,25 @@ def _strongest_inputs(runs: ReportedEnsemble, without: Sequence[str]) -> tuple[s
 
 def _row(runs: ReportedEnsemble, row: RunRow, outputs: tuple[str, ...], inputs: tuple[str, ...]) -> tuple[Any, ...]:
     met = sum(row.outputs.get(name) is True for name in runs.criteria)
-    criteria = (f"{met} of {len(runs.criteria)}" if row.status == DONE else None,) if runs.criteria else ()
-    values = (*map(row.outputs.get, (REACH, *outputs)), *map(row.inputs.get, inputs))
-    return row.number, row.status.replace("_", " "), *values, *criteria
+    criteria = (Text("{} of {}", met, len(runs.criteria)) if row.status == DONE else None,) if runs.criteria else ()
+    values = (*map(row.outputs.get, (REACH, *outputs)), *(_input(name, row.inputs.get(name)) for name in inputs))
+    return row.number, Text(row.status.replace("_", " ")), *values, *criteria
 
 
 def _photos(runs: StudyRuns, row: RunRow, title: str) -> list[Photo]:
     pictures = runs.pictures.get(row.number, {})
     distance_m = row.outputs[REACH]
     return [
-        Photo(pictures[name], f"{title}, {row.number}, with a debris distance of {distance_m:.2f} m: {words}.")
+        Photo(
+            pictures[name],
+            Text(
+                "{}, {}, with a debris distance of {}: {}.",
+                title,
+                row.number,
+                distance_to_keep(distance_m, ".2f"),
+                words,
+            ),
+        )
         for name, words in _PICTURES.items()
         if name in pictures
     ]
@@ -113,7 +137,7 @@ def _text(value: Any) -> str | None:
     if value is None or (isinstance(value, float) and math.isnan(value)):
         return None
     if isinstance(value, bool):
-        return "yes" if value else "no"
+        return Text("yes") if value else Text("no")
     if isinstance(value, float):
         return f"{value:.0f}" if abs(value) >= _LARGE else f"{value:.5g}"
     return str(value)

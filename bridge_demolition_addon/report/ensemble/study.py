@@ -17,6 +17,7 @@ from ...model.study.conclusions import SimultaneousLimits
 from ...model.study.files import PLAN_DXF, PLAN_GEOJSON
 from ...model.study.shown_names import shown
 from ...system.progress import Progress
+from ...texts import Text, distance_to_keep
 from ...version import VERSION
 from ..document.blocks import Block, Column, DataTable, Document, Paragraph, Picture, Report, Section
 from ..sections.charge_plan import charge_plan_section, flyrock_of, known_plan
@@ -32,15 +33,14 @@ from .fragments import fragments_section
 from .influence import correlation_table
 from .neighbours import neighbours_section
 from .plan import layers, plan_section
-from .reported_ensemble import names_of_runs
 from .runs import extremes_section, runs_section
 from .study_runs import StudyRuns
 from .summary import study_summary
 
-_STATISTICS = (
-    "All statements hold for independent runs, whose number and whose rank were fixed beforehand: limits by rank after "
-    "Wilks (1941), of several outputs at once after Guba, Makai and Pál (2003), probabilities after Clopper and "
-    "Pearson (1934). They ask nothing of the form of a distribution."
+_STATISTICS = Text(
+    "All statements hold for independent runs, whose number and whose rank were fixed beforehand: limits by rank "
+    "after Wilks (1941), of several outputs at once after Guba, Makai and Pál (2003), probabilities after Clopper "
+    "and Pearson (1934). They ask nothing of the form of a distribution."
 )
 
 
@@ -51,7 +51,7 @@ def study_report(runs: StudyRuns, target: Path, progress: Progress) -> Report:
     document = study_document(runs, VERSION, [path.name for path in plans])
     pages = single_pages(document, runs.ensemble.scenario)
     settings = runs.ensemble.scenario.report
-    return Report(document, (correlation_table(runs),), tuple(plans), pages, names_of_runs(runs), settings)
+    return Report(document, (correlation_table(runs),), tuple(plans), pages, settings)
 
 
 def study_document(runs: StudyRuns, version: str, files: Sequence[str] = ()) -> Document:
@@ -92,29 +92,41 @@ def study_document(runs: StudyRuns, version: str, files: Sequence[str] = ()) -> 
 
 def _asked(runs: StudyRuns) -> Iterator[tuple[str, str]]:
     settings = runs.ensemble.settings
-    yield "Runs", f"{len(runs.table)} of {settings.runs}, {int(runs.table.done.sum())} of them finished"
     yield (
-        "Asked",
+        Text("Runs"),
+        Text("{} of {}, {} of them finished", len(runs.table), settings.runs, int(runs.table.done.sum())),
+    )
+    yield (
+        Text("Asked"),
         (
-            f"the limit that {percent(settings.quantile)} of runs stay within, with {percent(settings.confidence)} "
-            f"confidence, from the {ordinal(settings.rank)} debris distance"
+            Text(
+                "the limit that {} of runs stay within, with {} confidence, from the {} debris distance",
+                percent(settings.quantile),
+                percent(settings.confidence),
+                ordinal(settings.rank),
+            )
         ),
     )
     if runs.conclusions is None:
         return
     limit = runs.conclusions.reach
     if limit.is_known:
-        yield "Limit of the debris distance", f"{rounded_up(limit.limit_m, '0.01')} m"
+        yield Text("Limit of the debris distance"), distance_to_keep(rounded_up(limit.limit_m, "0.01"))
     if limit.has_enough_runs:
         yield (
-            "So many runs allow",
+            Text("So many runs allow"),
             (
-                f"{percent(settings.quantile)} of runs with {100.0 * limit.achieved_confidence:.2f} % confidence, or "
-                f"{100.0 * limit.coverage:.2f} % of runs with {percent(settings.confidence)} confidence"
+                Text(
+                    "{} of runs with {} % confidence, or {} % of runs with {} confidence",
+                    percent(settings.quantile),
+                    f"{100.0 * limit.achieved_confidence:.2f}",
+                    f"{100.0 * limit.coverage:.2f}",
+                    percent(settings.confidence),
+                )
             ),
         )
     else:
-        yield "Runs that a limit needs", str(limit.runs_needed)
+        yield Text("Runs that a limit needs"), str(limit.runs_needed)
 
 
 def _charges_section(scenario: Scenario, plan: ChargePlan | str | None) -> Section | None:
@@ -128,11 +140,11 @@ def distance_section(runs: StudyRuns) -> Section:
     """Return the debris distances of the runs, and how their limit settled."""
     settings, distances_m = runs.ensemble.settings, runs.distances_m
     limit_m = runs.limits["limit"][0] if runs.limits else None
-    limit = None if limit_m is None else (limit_m, f"{rounded_up(limit_m, '0.01')} m")
-    words = (
-        "The debris distance of a run is the smallest distance from the bridge's first outline in plan that all of its "
-        "debris, and every ball, stayed within at all recorded times, in the air included. A run that did not finish "
-        "counts as one of unlimited debris distance."
+    limit = None if limit_m is None else (limit_m, distance_to_keep(rounded_up(limit_m, "0.01")))
+    words = Text(
+        "The debris distance of a run is the smallest distance from the bridge's first outline in plan that all "
+        "of its debris, and every ball, stayed within at all recorded times, in the air included. A run that did "
+        "not finish counts as one of unlimited debris distance."
     )
     counts, limits_m = limits_by_runs(distances_m, settings.quantile, settings.confidence, settings.rank)
     blocks: list[Block] = [Paragraph(words)]
@@ -140,15 +152,18 @@ def distance_section(runs: StudyRuns) -> Section:
         blocks.append(
             Picture(
                 partial(reach_distribution, reaches_m=distances_m, limit=limit, quantile=settings.quantile),
-                f"Debris distances of the runs, and which share of {len(distances_m)} runs stays within it.",
+                Text("Debris distances of the runs, and which share of {} runs stays within it.", len(distances_m)),
                 95.0,
             )
         )
         blocks.append(
             Picture(
                 partial(limit_over_runs, reaches_m=distances_m, runs=counts, limits_m=limits_m),
-                "How the limit settled: at each number of runs the highest rank that they allow is taken, up to the "
-                f"{ordinal(settings.rank)} distance, which was fixed beforehand. Only the last limit is a statement.",
+                Text(
+                    "How the limit settled: at each number of runs the highest rank that they allow is taken, up "
+                    "to the {} distance, which was fixed beforehand. Only the last limit is a statement.",
+                    ordinal(settings.rank),
+                ),
                 80.0,
             )
         )
@@ -160,9 +175,11 @@ def distance_section(runs: StudyRuns) -> Section:
 def _limits_at_once(at_once: SimultaneousLimits) -> list[Block]:
     if not all(map(math.isfinite, at_once.limits.values())):
         return [Paragraph("Several limits that hold at once are not known, because of runs that did not finish.")]
-    words = (
-        f"With {percent(at_once.confidence)} confidence at least {percent(at_once.quantile)} of such runs stay below "
-        "all of these limits at once (Guba, Makai and Pál 2003). Each is at least as large as a limit of its own."
+    words = Text(
+        "With {} confidence at least {} of such runs stay below all of these limits at once (Guba, Makai and Pál "
+        "2003). Each is at least as large as a limit of its own.",
+        percent(at_once.confidence),
+        percent(at_once.quantile),
     )
     columns = (
         Column("output", "output"),

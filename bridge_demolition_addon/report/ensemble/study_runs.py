@@ -21,6 +21,7 @@ from ...model.study.conclusions import conclusions as conclusions_of
 from ...model.study.file import Study
 from ...model.study.files import AGAIN_FOLDER, RUN_FOLDER
 from ...model.study.verification import holds, proportion_leaving
+from ...texts import Text
 from ..run_folder import pictures_in
 from .reported_ensemble import ReportedEnsemble
 
@@ -78,9 +79,12 @@ class StudyRuns(ReportedEnsemble):
         if self.conclusions is None or not math.isfinite(self.conclusions.reach.limit_m):
             return {}
         limit_m = self.conclusions.reach.limit_m
-        limits = {"limit": (limit_m, widened_around(self.bridge, limit_m))}
+        limits: dict[str, tuple[float, CrossSection]] = {Text("limit"): (limit_m, widened_around(self.bridge, limit_m))}
         if self.buffer_m:
-            limits["limit and buffer"] = limit_m + self.buffer_m, widened_around(self.bridge, limit_m + self.buffer_m)
+            limits[Text("limit and buffer")] = (
+                limit_m + self.buffer_m,
+                widened_around(self.bridge, limit_m + self.buffer_m),
+            )
         return limits
 
     @property

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ...engineering.units import rounded_up
+from ...texts import Text, distance_to_keep
 from ..document.blocks import Block, Paragraph, facts
 from ..wording.clearance import Flyrock, clearance_rows, flyrock_of_runs
 from ..wording.numbers import listed, percent, percent_down
@@ -29,30 +30,31 @@ def study_summary(runs: StudyRuns, flyrock: Flyrock | str | None = None) -> tupl
 
 def _plan(runs: StudyRuns, flyrock: Flyrock | str | None) -> Iterator[tuple[str, str]]:
     scenario, conclusions = runs.ensemble.scenario, runs.conclusions
-    yield "Done to the bridge", means_text(scenario)
+    yield Text("Done to the bridge"), means_text(scenario)
     for criterion in conclusions.criteria if conclusions else ():
-        at_least = f"at least {percent_down(criterion.at_least)} of such runs do"
-        yield "Outcome", f"{criterion.count} of {criterion.runs} runs {criterion.what}; {at_least}"
-    yield "Limit", _limit_text(runs)
+        at_least = Text("at least {} of such runs do", percent_down(criterion.at_least))
+        yield Text("Outcome"), Text("{} of {} runs {}; {}", criterion.count, criterion.runs, criterion.what, at_least)
+    yield Text("Limit"), _limit_text(runs)
     if conclusions and conclusions.fragments:
         flyrock = flyrock_of_runs(conclusions.fragments)
-    limit = (next(iter(runs.limits.values()))[0], "that debris stays within by this study") if runs.limits else None
+    limit = (next(iter(runs.limits.values()))[0], "{} that debris stays within by this study") if runs.limits else None
     yield from clearance_rows(scenario, flyrock, limit)
-    yield "Rests on", _basis_text(runs)
+    yield Text("Rests on"), _basis_text(runs)
 
 
 def _limit_text(runs: StudyRuns) -> str:
     if not runs.limits:
-        return "none yet"
-    limits = [f"{rounded_up(far_m, '0.1')} m" for far_m, _ in runs.limits.values()]
-    added = f", {limits[1]} with the buffer of {runs.buffer_m:g} m" if len(limits) > 1 else "; a buffer has to be added"
-    return f"{limits[0]} around the bridge's plan{added}"
+        return Text("none yet")
+    limits = [distance_to_keep(rounded_up(far_m, "0.1")) for far_m, _ in runs.limits.values()]
+    around = Text("{} around the bridge's plan", limits[0])
+    if len(limits) > 1:
+        return Text("{}, {} with the buffer of {}", around, limits[1], distance_to_keep(runs.buffer_m or 0.0, "g"))
+    return Text("{}; a buffer has to be added", around)
 
 
 def _basis_text(runs: StudyRuns) -> str:
     settings, names = runs.ensemble.settings, input_names(runs.ensemble)
-    were = "was" if len(names) == 1 else "were"
-    return (
-        f"{len(runs.table)} of {settings.runs} independent runs, in which {listed(names)} {were} sampled; asked are "
-        f"{percent(settings.quantile)} of runs with {percent(settings.confidence)} confidence"
-    )
+    was = "{} of {} independent runs, in which {} was sampled; asked are {} of runs with {} confidence"
+    were = "{} of {} independent runs, in which {} were sampled; asked are {} of runs with {} confidence"
+    asked = percent(settings.quantile), percent(settings.confidence)
+    return Text(was if len(names) == 1 else were, len(runs.table), settings.runs, listed(names), *asked)

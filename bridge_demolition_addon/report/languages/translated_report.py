@@ -1,11 +1,14 @@
-"""The documents of a report, put into a language."""
+"""The documents of a report, put into a language and a system of units."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
+from ...engineering.unit_systems import LEAST_DIGITS
+from ...texts import Text, Unit
 from ..document.blocks import AnimatedModel, Block, Column, DataTable, Document, Paragraph, Photo, Picture, Section
 from .translation import Translation
 
@@ -13,20 +16,24 @@ _MOST_SHOWN = 3
 """Texts that stayed English, and are named at the head of the report."""
 
 _LACKING = "The table of this language lacks {} texts of this report, which are in English, such as: {}"
-_DRAWINGS = "The drawings are in English: no font with the letters of this language was found."
-HEAD = (_LACKING, _DRAWINGS)
-"""Texts that only a report with English in it has."""
+_DRAWINGS = Text("The drawings are in English: no font with the letters of this language was found.")
+NOTE = Text(
+    "Quantities here are in US customary units: a short ton is 2000 lb, a kip 1000 lbf, and distances that debris "
+    "reaches or people keep are rounded up. Tables in files, site plans, the scenario, formulas with constants, "
+    "distributions of studies, diameters of bars after Ø (mm) and rendered pictures are in SI units."
+)
+"""What a report says at its head where its units are not those of its files."""
+
+_NUMBER = re.compile(r"-?\d+(\.\d+)?(e[-+]\d+)?")
 
 
 def translated_document(document: Document, translation: Translation) -> Document:
-    """Return a report in a language. Keys, names of files, listings of files and the numbers stay as they are.
+    """Return a report in language and units. Keys, names of files, listings of files and what files hold stay.
 
     Where the table of the language lacks a text, the report says so at its head.
     """
-    if translation.is_english:
-        return document
     sections = tuple(
-        Section(translation.text(section.title), _blocks(section.blocks, translation)) for section in document.sections
+        Section(translation.label(section.title), _blocks(section.blocks, translation)) for section in document.sections
     )
     title, subtitle = translation.text(document.title), translation.text(document.subtitle)
     return Document(title, subtitle, sections, _blocks(document.summary, translation))
@@ -37,13 +44,13 @@ def with_notes(document: Document, notes: Sequence[str]) -> Document:
     return replace(document, summary=(*(Paragraph(note, is_notice=True) for note in notes), *document.summary))
 
 
-def notes_on_language(translation: Translation, can_draw: bool) -> list[str]:
-    """Return what of a report stayed English, in its language: texts that the table lacks, and drawings."""
-    notes = [] if can_draw else [translation.pattern(_DRAWINGS)]
+def notes_at_head(translation: Translation, can_draw: bool) -> list[str]:
+    """Return what a report says of its units, and what of it stayed English: texts without a translation, drawings."""
+    notes = [translation.text(NOTE)] if translation.converts else []
     if translation.missing:
         first = "; ".join(translation.missing[:_MOST_SHOWN])
-        notes.insert(0, translation.pattern(_LACKING).format(len(translation.missing), first))
-    return notes
+        notes.append(translation.text(Text(_LACKING, len(translation.missing), first)))
+    return notes if can_draw else [*notes, translation.text(_DRAWINGS)]
 
 
 def _blocks(blocks: Sequence[Block], translation: Translation) -> tuple[Block, ...]:
@@ -53,24 +60,60 @@ def _blocks(blocks: Sequence[Block], translation: Translation) -> tuple[Block, .
 def _block(block: Block, translation: Translation) -> Block:
     match block:
         case Paragraph():
-            return replace(block, text=translation.text(block.text))
+            return replace(block, text=translation.label(block.text))
         case DataTable():
             return _table(block, translation)
         case Picture() | Photo() | AnimatedModel():
-            return replace(block, title=translation.text(block.title))
+            return replace(block, title=translation.label(block.title))
     return block
 
 
 def _table(table: DataTable, translation: Translation) -> DataTable:
-    """Return a table as people read it, in a language: its file is written from that in English."""
-    columns = tuple(replace(column, heading=translation.text(column.heading)) for column in table.columns)
-    rows = [
-        tuple(_cell(column, value, translation) for column, value in zip(table.columns, row, strict=True))
-        for row in table.rows
-    ]
-    return replace(table, title=translation.text(table.title), columns=columns, rows=rows)
+    """Return a table as people read it: its file is written from that in English and SI units."""
+    columns = tuple(_column(column, translation) for column in table.columns)
+    rows = [_row(table.columns, row, translation) for row in table.rows]
+    return replace(table, title=translation.label(table.title), columns=columns, rows=rows)
 
 
-def _cell(column: Column, value: Any, translation: Translation) -> Any:
-    """Return a value of a table, numbers, sources and what is not known as they are."""
-    return value if column.form or column.cites or value is None else translation.text(column.shown(value))
+def _unit(column: Column) -> Unit:
+    """Return the unit of the numbers of a column, which may be its heading; empty for texts."""
+    if not column.form:
+        return Unit("")
+    return column.heading if isinstance(column.heading, Unit) else column.shown_unit
+
+
+def _column(column: Column, translation: Translation) -> Column:
+    """Return a column with its unit, and about as many digits as it had."""
+    heading, unit = translation.label(column.heading), translation.unit(column.shown_unit)
+    own = replace(column, heading=f"{heading} ({unit})" if unit else heading)
+    conversion = translation.conversion(_unit(column))
+    if conversion is None and not (column.of_row and column.form and translation.converts):
+        return own
+    if column.form.endswith("g"):
+        return replace(own, form=f".{int(column.form.strip('.g')) + 1}g")
+    assert conversion is not None  # numbers by the unit of their row have no fixed decimals
+    decimals = max(0, -conversion.last_digit(column.shown(0.0)))
+    return replace(own, form=f".{decimals}f", significant=LEAST_DIGITS)
+
+
+def _row(columns: Sequence[Column], row: tuple[Any, ...], translation: Translation) -> tuple[Any, ...]:
+    own = _unit_of_row(row) if any(column.of_row for column in columns) else Unit("")
+    return tuple(
+        _cell(column, value, own if column.of_row else _unit(column), translation)
+        for column, value in zip(columns, row, strict=True)
+    )
+
+
+def _unit_of_row(row: tuple[Any, ...]) -> Unit:
+    """Return the unit in one of the cells of a row: by itself, or within a text; empty without one."""
+    within = [part for cell in row if isinstance(cell, Text) for part in cell.values]
+    return next((unit for unit in (*row, *within) if isinstance(unit, Unit)), Unit(""))
+
+
+def _cell(column: Column, value: Any, unit: Unit, translation: Translation) -> Any:
+    """Return a value of a table, numbers in the unit of the column, rounded as they are shown."""
+    shown, conversion = column.shown(value), translation.conversion(unit)
+    if conversion is not None and _NUMBER.fullmatch(shown):
+        number = conversion.number(shown, unit.rounding)
+        return float(number) + 0.0 if column.form else number  # no zero with a sign
+    return value if column.form or value is None else translation.text(shown)

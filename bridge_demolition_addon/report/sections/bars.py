@@ -11,14 +11,15 @@ import numpy as np
 from ...charts.histories import compared_histories
 from ...model.results.arrays import Results
 from ...model.results.bar_extremes import largest_use_text
+from ...texts import Text
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture
 from ..run_folder import ReportedRun
 
-_NOTES = (
-    "Use is the opening of a crack at its worst corner by that at which bars rupture. Under an impact it depends on "
-    "the length of sub-steps: it is no margin against rupture. Ruptured are cracks that all "
-    "their bars let go, in part those that some did: of a hinge that folds, bars at the closed edge stay. Cracks at "
-    "work are in bar_log.csv, frame by frame."
+_NOTES = Text(
+    "Use is the opening of a crack at its worst corner by that at which bars rupture. Under an impact it depends "
+    "on the length of sub-steps: it is no margin against rupture. Ruptured are cracks that all their bars let go, "
+    "in part those that some did: of a hinge that folds, bars at the closed edge stay. Cracks at work are in "
+    "bar_log.csv, frame by frame."
 )
 
 
@@ -28,12 +29,12 @@ def bar_blocks(run: ReportedRun) -> list[Block]:
     if not bars:
         return []
     if not bars["cracked"]:
-        return [Paragraph(f"None of the {bars['with_bars']} connections with bars cracked.")]
+        return [Paragraph(Text("None of the {} connections with bars cracked.", bars["with_bars"]))]
     blocks: list[Block] = [_by_kind(bars["by_kind"]), Paragraph(_NOTES)]
     if largest := largest_use_text(run.summary.values if run.summary else {}):
-        blocks.append(Paragraph(f"Bars used at most {largest}."))
+        blocks.append(Paragraph(Text("Bars used at most {}.", largest)))
     if lines := use_histories(run.recorded):
-        draw = partial(compared_histories, label="use of the rupture strain (%)", histories=lines)
+        draw = partial(compared_histories, label=Text("use of the rupture strain (%)"), histories=lines)
         blocks.append(Picture(draw, "Largest use of bars in each kind of member, in any sub-step of a frame."))
     return blocks
 
@@ -43,11 +44,12 @@ def use_histories(results: Results) -> list[tuple[str, np.ndarray, np.ndarray]]:
     use, kinds = results.frames.loads.body_bar_use, results.inventory.body_member_kinds
     if use is None:
         return []
-    times_s, histories = results.frames.time_s[1:], []
+    times_s = results.frames.time_s[1:]
+    histories: list[tuple[str, np.ndarray, np.ndarray]] = []
     for kind in np.unique(kinds[kinds != ""]):
         largest = 100.0 * use[1:, kinds == kind].max(axis=1, initial=0.0)
         if largest.any():
-            histories.append((str(kind), times_s, largest))
+            histories.append((Text(str(kind)), times_s, largest))
     return histories
 
 
@@ -56,13 +58,13 @@ def _by_kind(kinds: Sequence[Mapping[str, Any]]) -> DataTable:
         return lambda kind: None if kind[key] is None else factor * kind[key]
 
     columns = (
-        Column("member", "member_kind", "", lambda kind: kind["kind"]),
+        Column("member", "member_kind", "", lambda kind: Text(kind["kind"])),
         Column("cracked", "cracked", "", lambda kind: kind["cracked"]),
         Column("yielded", "yielded", "", lambda kind: kind["yielded"]),
         Column("ruptured", "ruptured", "", lambda kind: kind["ruptured"]),
         Column("in part", "ruptured_in_part", "", lambda kind: kind["ruptured_in_part"]),
         Column("held at the end", "held_at_end", "", lambda kind: kind["held_at_end"]),
-        Column("largest use (%)", "largest_use_percent", ".0f", value("largest_use_share", 100.0)),
-        Column("at (s)", "largest_use_s", ".3f", value("largest_use_s")),
+        Column("largest use", "largest_use_percent", ".0f", value("largest_use_share", 100.0)),
+        Column("at", "largest_use_s", ".3f", value("largest_use_s")),
     )
     return DataTable.of("cracked_connections", "Cracked connections with bars, by kind of member", columns, kinds)

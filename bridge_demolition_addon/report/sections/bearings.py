@@ -13,17 +13,18 @@ from ...engineering.geometry.vectors import length
 from ...model.results.bearings import BearingHistory, bearing_histories
 from ...model.scenario.scenario import bearing_tables
 from ...model.structure.bearing_ranges import ONE_CUT
+from ...texts import Text, Unit
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture
 from ..run_folder import ReportedRun
 
 _MOST_LINES = 8
 
-_NOTES = (
-    "At rest: mean over the first frame after any warm-up. Least and largest are those of single sub-steps, as long as "
-    "the bearing was there; below 0 it held against uplift or, without tension, Bullet's constraint answered to "
-    "contacts, which a bearing cannot. Opened: largest part of its area that lifted off. "
-    "Displacement: largest horizontal one of what lies above against what lies below, from where they were built, and "
-    "the part of it that slid. Moments are about the axis across the road. Every frame is in bearing_log.csv."
+_NOTES = Text(
+    "At rest: mean over the first frame after any warm-up. Least and largest are those of single sub-steps, as "
+    "long as the bearing was there; below 0 it held against uplift or, without tension, Bullet's constraint "
+    "answered to contacts, which a bearing cannot. Opened: largest part of its area that lifted off. "
+    "Displacement: largest horizontal one of what lies above against what lies below, from where they were built, "
+    "and the part of it that slid. Moments are about the axis across the road. Every frame is in bearing_log.csv."
 )
 
 
@@ -42,9 +43,14 @@ def bearing_blocks(run: ReportedRun) -> list[Block]:
         shown = [bearing for bearing in histories if bearing in largest[:_MOST_LINES]]
         times_s = run.recorded.frames.time_s[1:]
         lines = [(bearing.name, times_s, bearing.forces_n[1:, 2] / 1e3) for bearing in shown]
-        few = f" The {_MOST_LINES} with the largest are shown." if len(histories) > len(shown) else ""
-        caption = f"Vertical forces of bearings on what lies above them, each the mean over a frame.{few}"
-        blocks.append(Picture(partial(compared_histories, label="vertical force (kN)", histories=lines), caption))
+        caption = Text("Vertical forces of bearings on what lies above them, each the mean over a frame.")
+        if len(histories) > len(shown):
+            caption = Text("{} The {} with the largest are shown.", caption, _MOST_LINES)
+        blocks.append(
+            Picture(
+                partial(compared_histories, label=Text("vertical force ({})", Unit("kN")), histories=lines), caption
+            )
+        )
     return blocks
 
 
@@ -54,16 +60,16 @@ def _extremes(bearings: Sequence[Mapping[str, Any]]) -> DataTable:
 
     columns = (
         Column("bearing", "bearing", "", lambda bearing: bearing["name"]),
-        Column("up at rest (kN)", "at_rest_up_kN", ".1f", scaled("at_rest_up_N", 1e-3)),
-        Column("least (kN)", "least_up_kN", ".1f", scaled("least_up_N", 1e-3)),
-        Column("largest (kN)", "largest_up_kN", ".1f", scaled("largest_up_N", 1e-3)),
-        Column("at (s)", "largest_up_s", ".3f", scaled("largest_up_s", 1.0)),
-        Column("largest horizontal (kN)", "largest_horizontal_kN", ".1f", scaled("largest_horizontal_N", 1e-3)),
-        Column("largest moment (kN·m)", "largest_moment_y_kNm", ".1f", scaled("largest_moment_y_Nm", 1e-3)),
-        Column("opened (%)", "largest_open_percent", ".0f", scaled("largest_open_share", 100.0)),
-        Column("displacement (mm)", "largest_displacement_mm", ".1f", scaled("largest_displacement_m", 1e3)),
-        Column("slid (mm)", "slip_mm", ".1f", scaled("slip_m", 1e3)),
-        Column("left at the end (%)", "left_percent", ".0f", scaled("left_share", 100.0)),
+        Column("up at rest", "at_rest_up_kN", ".1f", scaled("at_rest_up_N", 1e-3)),
+        Column("least", "least_up_kN", ".1f", scaled("least_up_N", 1e-3)),
+        Column(Text("largest", context="force"), "largest_up_kN", ".1f", scaled("largest_up_N", 1e-3)),
+        Column("at", "largest_up_s", ".3f", scaled("largest_up_s", 1.0)),
+        Column("largest horizontal", "largest_horizontal_kN", ".1f", scaled("largest_horizontal_N", 1e-3)),
+        Column("largest moment", "largest_moment_y_kNm", ".1f", scaled("largest_moment_y_Nm", 1e-3)),
+        Column("opened", "largest_open_percent", ".0f", scaled("largest_open_share", 100.0)),
+        Column("displacement", "largest_displacement_mm", ".1f", scaled("largest_displacement_m", 1e3)),
+        Column("slid", "slip_mm", ".1f", scaled("slip_m", 1e3)),
+        Column("left at the end", "left_percent", ".0f", scaled("left_share", 100.0)),
     )
     return DataTable.of("bearings", "Bearings", columns, bearings)
 
@@ -76,15 +82,15 @@ def _means(histories: Sequence[BearingHistory]) -> DataTable:
 
     columns = (
         Column("bearing", "bearing", "", lambda bearing: bearing.name),
-        Column("up at first (kN)", "first_up_kN", ".1f", upwards(lambda forces: forces[0])),
-        Column("least (kN)", "least_up_kN", ".1f", upwards(np.nanmin)),
-        Column("largest (kN)", "largest_up_kN", ".1f", upwards(np.nanmax)),
+        Column("up at first", "first_up_kN", ".1f", upwards(lambda forces: forces[0])),
+        Column("least", "least_up_kN", ".1f", upwards(np.nanmin)),
+        Column(Text("largest", context="force"), "largest_up_kN", ".1f", upwards(np.nanmax)),
         Column(
-            "largest horizontal (kN)",
+            "largest horizontal",
             "largest_horizontal_kN",
             ".1f",
             lambda bearing: float(np.nanmax(length(bearing.forces_n[1:, :2]))) / 1e3,
         ),
-        Column("left at the end (%)", "left_percent", ".0f", lambda bearing: 100.0 * float(bearing.intact[-1])),
+        Column("left at the end", "left_percent", ".0f", lambda bearing: 100.0 * float(bearing.intact[-1])),
     )
     return DataTable.of("bearings", "Forces of bearings, each the mean over a frame", columns, histories)

@@ -17,6 +17,7 @@ from ...model.blast.damage import THRESHOLDS, ring_radii
 from ...model.blast.receptors import ONE_DELAY_S, PlaceLoads, charges_per_delay, loads_at
 from ...model.scenario import Scenario
 from ...model.schema import given
+from ...texts import Quantity, Text
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section, facts
 
 
@@ -32,7 +33,9 @@ def blast_section(scenario: Scenario, bridge: CrossSection, ground: RecordedGrou
             Paragraph("The charges did not go off in this run: this is their effect otherwise.", is_notice=True)
         )
     if factor != 1.0:
-        blocks.append(Paragraph(f"All pressures are taken times blast.pressure_factor, {factor:g}.", is_notice=True))
+        blocks.append(
+            Paragraph(Text("All pressures are taken times blast.pressure_factor, {}.", f"{factor:g}"), is_notice=True)
+        )
     blocks += [_charge_table(charges), _totals(charges)]
     blocks.append(
         Picture(
@@ -45,8 +48,11 @@ def blast_section(scenario: Scenario, bridge: CrossSection, ground: RecordedGrou
                 pressure_factor=factor,
                 ground=ground,
             ),
-            "Peak overpressure on the ground, the largest of any one charge; where waves meet, it can be more. Rings "
-            f"down to {WIDEST_PA / 1e3:g} kPa; the others are in the table. Free field, without shelter or reflection.",
+            Text(
+                "Peak overpressure on the ground, the largest of any one charge; where waves meet, it can be "
+                "more. Rings down to {}; the others are in the table. Free field, without shelter or reflection.",
+                Quantity(WIDEST_PA / 1e3, "kPa", "g"),
+            ),
             140.0,
         )
     )
@@ -64,20 +70,20 @@ def blast_section(scenario: Scenario, bridge: CrossSection, ground: RecordedGrou
 def _charge_table(charges: Sequence[Charge]) -> DataTable:
     columns = (
         Column("charge", "charge", "", lambda charge: charge.name),
-        Column("explosive", "explosive", "", lambda charge: charge.explosive),
-        Column("mass (kg)", "mass_kg", ".2f", significant=3, value=lambda charge: charge.mass_kg),
+        Column("explosive", "explosive", "", lambda charge: Text(charge.explosive)),
+        Column("mass", "mass_kg", ".2f", significant=3, value=lambda charge: charge.mass_kg),
         Column(
-            "TNT by pressure (kg)",
+            "TNT by pressure",
             "tnt_by_pressure_kg",
             ".2f",
             significant=3,
             value=lambda charge: charge.tnt_for_pressure_kg,
         ),
-        Column("x (m)", "x_m", ".2f", lambda charge: charge.position_m[0]),
-        Column("y (m)", "y_m", ".2f", lambda charge: charge.position_m[1]),
-        Column("z (m)", "z_m", ".2f", lambda charge: charge.position_m[2]),
-        Column("delay (ms)", "delay_ms", ".0f", lambda charge: 1e3 * charge.delay_s),
-        Column("burst", "burst", "", lambda charge: charge.burst),
+        Column("x", "x_m", ".2f", lambda charge: charge.position_m[0]),
+        Column("y", "y_m", ".2f", lambda charge: charge.position_m[1]),
+        Column("z", "z_m", ".2f", lambda charge: charge.position_m[2]),
+        Column("delay", "delay_ms", ".0f", lambda charge: 1e3 * charge.delay_s),
+        Column("burst", "burst", "", lambda charge: Text(charge.burst)),
     )
     return DataTable.of("charges", "Charges", columns, charges)
 
@@ -88,9 +94,17 @@ def _totals(charges: Sequence[Charge]) -> DataTable:
     largest = groups[masses.index(max(masses))]
     names = ", ".join(given(charge.name) for charge in largest)
     rows = [
-        ("Total charge", f"{with_digits(sum(masses), 2)} kg"),
-        ("Delays", f"{len(groups)}, counting charges within {1e3 * ONE_DELAY_S:g} ms of each other as one"),
-        ("Largest charge per delay", f"{with_digits(max(masses), 2)} kg at {1e3 * largest[0].delay_s:g} ms ({names})"),
+        (Text("Total charge"), Quantity(with_digits(sum(masses), 2), "kg")),
+        (
+            Text("Delays"),
+            Text("{}, counting charges within {} ms of each other as one", len(groups), f"{1e3 * ONE_DELAY_S:g}"),
+        ),
+        (
+            Text("Largest charge per delay"),
+            Text(
+                "{} at {} ms ({})", Quantity(with_digits(max(masses), 2), "kg"), f"{1e3 * largest[0].delay_s:g}", names
+            ),
+        ),
     ]
     return facts("Total charge and charge per delay", rows, "charge_per_delay")
 
@@ -98,35 +112,38 @@ def _totals(charges: Sequence[Charge]) -> DataTable:
 def _ring_table(charges: Sequence[Charge], model: BlastModel, pressure_factor: float) -> DataTable:
     radii = ring_radii(charges, 0.0, THRESHOLDS, model, pressure_factor).max(axis=1)
     columns = (
-        Column("overpressure (kPa)", "overpressure_kPa", ".2f", lambda threshold, _: threshold.overpressure_pa / 1e3),
+        Column("overpressure", "overpressure_kPa", ".2f", lambda threshold, _: threshold.overpressure_pa / 1e3),
         Column("damage", "damage", "", lambda threshold, _: threshold.damage),
-        Column("ring (m)", "radius_m", ".1f", lambda _, radius_m: float(radius_m)),
-        Column("source", "source", "", lambda threshold, _: threshold.source, cites=True),
+        Column("ring", "radius_m", ".1f", lambda _, radius_m: float(radius_m), is_reach=True),
+        Column("source", "source", "", lambda threshold, _: threshold.source),
     )
-    title = "Thresholds of damage, and the largest radius around a charge on the ground"
+    title = Text("Thresholds of damage, and the largest radius around a charge on the ground")
     return DataTable.of("damage_rings", title, columns, THRESHOLDS, radii)
 
 
 def _neighbour_blocks(loads: Sequence[tuple[str, PlaceLoads]]) -> list[Block]:
     columns = (
         Column("neighbour", "neighbour", "", lambda name, _: name),
-        Column("distance (m)", "distance_m", ".1f", lambda _, load: load.distance_m),
-        Column("first wave (ms)", "arrival_ms", ".1f", lambda _, load: 1e3 * load.arrival_s),
-        Column("peak (kPa)", "peak_overpressure_kPa", ".3f", lambda _, load: load.peak_pa / 1e3),
-        Column("impulse (kPa·ms)", "impulse_kPa_ms", ".2f", lambda _, load: load.impulse_pa_s),
+        Column("distance", "distance_m", ".1f", lambda _, load: load.distance_m),
+        Column("first wave", "arrival_ms", ".1f", lambda _, load: 1e3 * load.arrival_s),
+        Column("peak", "peak_overpressure_kPa", ".3f", lambda _, load: load.peak_pa / 1e3),
+        Column("impulse", "impulse_kPa_ms", ".2f", lambda _, load: load.impulse_pa_s, unit="kPa·ms"),
         Column(
-            "ground velocity (mm/s)",
+            "ground velocity",
             "peak_particle_velocity_mm_s",
             ".1f",
             lambda _, load: 1e3 * load.peak_velocity_m_s,
         ),
     )
     ground = FREE_FACE_AVERAGE
-    basis = (
-        f"Vibration by v = {1e3 * ground.velocity_m_s:g} mm/s (R/√Q)^-{ground.exponent:g} ({ground.name}), of the "
-        f"charges that detonate together; houses resist {1e3 * DAMAGE_LIMIT_M_S:g} mm/s (USBM Bulletin 656), "
-        "many codes ask for less. It holds for charges drilled into rock. It does not include the fall of the bridge, "
-        "which often shakes the ground more."
+    basis = Text(
+        "Vibration by v = {} mm/s (R/√Q)^-{} ({}), of the charges that detonate together; houses resist {} (USBM "
+        "Bulletin 656), many codes ask for less. It holds for charges drilled into rock. It does not include the "
+        "fall of the bridge, which often shakes the ground more.",
+        f"{1e3 * ground.velocity_m_s:g}",
+        f"{ground.exponent:g}",
+        Text(ground.name),
+        Quantity(1e3 * DAMAGE_LIMIT_M_S, "mm/s", "g"),
     )
     names, at_neighbours = zip(*loads, strict=True)
     return [

@@ -25,11 +25,12 @@ from ...model.scenario import Zone
 from ...model.schema import given
 from ...model.structure.zone_fragments import NO_SAFETY_DISTANCE
 from ...model.terrain.built import facts_from, terrain_summary
+from ...texts import DOWN, UP, Quantity, Text, distance_to_keep
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section, facts
 from ..run_folder import ReportedRun
 from .cover import first_doubts_notice
 
-_ZONE = "Exclusion zone of one run"
+_ZONE = Text("Exclusion zone of one run")
 
 NAMED = 10
 """Largest throws in the table."""
@@ -38,16 +39,17 @@ NAMED = 10
 def debris_section(run: ReportedRun, debris: Debris, *, trajectories: bool) -> Section:
     """Return where the debris went."""
     results, zones = run.recorded, run.scenario.zones if run.scenario else ()
-    words = (
-        f"Debris is every shard that ended more than {MOVED_M:g} m from where it began. The throw is the horizontal "
-        "distance between the first and the last position of its centre of mass; its debris distance is how far it "
-        "ends outside the bridge's first outline in plan."
+    words = Text(
+        "Debris is every shard that ended more than {} from where it began. The throw is the horizontal distance "
+        "between the first and the last position of its centre of mass; its debris distance is how far it ends "
+        "outside the bridge's first outline in plan.",
+        distance_to_keep(MOVED_M, "g"),
     )
     blocks: list[Block] = [Paragraph(words)]
     blocks += first_doubts_notice(run)
     if len(debris.bodies):
         heights = height_map(results, debris.bodies)
-        blocks.append(Paragraph(f"{PILES_NOTE}.", is_notice=True))
+        blocks.append(Paragraph(Text("{}.", PILES_NOTE), is_notice=True))
         blocks += _debris_blocks(results, debris, heights, zones, trajectories)
     else:
         blocks.append(Paragraph("No shard moved that far: there is no debris.", is_notice=True))
@@ -58,52 +60,61 @@ def debris_section(run: ReportedRun, debris: Debris, *, trajectories: bool) -> S
 def exclusion_section(zone: ExclusionZone | None, run: ReportedRun, files: Sequence[str]) -> Section:
     """Return the exclusion zone, or why there is none."""
     if zone is None:
-        words = (
-            "The scenario gives no exclusion zone. Add the table [exclusion] with a buffer to scenario_as_run.toml in "
-            "the folder of the run, or tick it in Blender's sidebar, and make the report again to have the zone here."
+        words = Text(
+            "The scenario gives no exclusion zone. Add the table [exclusion] with a buffer to "
+            "scenario_as_run.toml in the folder of the run, or tick it in Blender's sidebar, and make the report "
+            "again to have the zone here."
         )
         return Section(_ZONE, (Paragraph(words, is_notice=True),))
     settings = given(run.planned.exclusion)
     low_x, low_y, high_x, high_y = zone.bounds_m
-    words = (
+    words = Text(
         "Plan area of the bridge, designed drop area, predicted debris area, and a buffer around all of them, as "
-        "BS 6187 asks for. Predicted debris is the area that shards and balls covered at any time of this one run. "
-        f"The buffer of {settings.buffer_m:g} m is the scenario's, not the simulation's. One run is no plan: another "
-        "one throws farther. To fence off a site, take the limit of a study, with the buffer around it."
+        "BS 6187 asks for. Predicted debris is the area that shards and balls covered at any time of this one "
+        "run. The buffer of {} is the scenario's, not the simulation's. One run is no plan: another one throws "
+        "farther. To fence off a site, take the limit of a study, with the buffer around it.",
+        distance_to_keep(settings.buffer_m, "g"),
     )
     rows = [
-        ("Buffer", f"{settings.buffer_m:g} m"),
-        ("Designed drop", f"{settings.designed_drop_m:g} m around the bridge's plan"),
-        ("Plan area of the bridge", f"{zone.plan.area():.1f} m²"),
-        ("Predicted debris area", f"{zone.debris.area():.1f} m²"),
-        (_ZONE, f"{zone.whole.area():.1f} m²"),
-        ("Along the road", _extent("x", low_x, high_x)),
-        ("Across the road", _extent("y", low_y, high_y)),
+        (Text("Buffer"), distance_to_keep(settings.buffer_m, "g")),
+        (Text("Designed drop"), Text("{} around the bridge's plan", distance_to_keep(settings.designed_drop_m, "g"))),
+        (Text("Plan area of the bridge"), Quantity(zone.plan.area(), "m²", ".1f")),
+        (Text("Predicted debris area"), Quantity(zone.debris.area(), "m²", ".1f")),
+        (_ZONE, Quantity(zone.whole.area(), "m²", ".1f")),
+        (Text("Along the road"), _extent("x", low_x, high_x)),
+        (Text("Across the road"), _extent("y", low_y, high_y)),
         (
-            "Farthest from the bridge's plan",
-            f"{rounded_up(zone.largest_distance_m, '0.01')} m{_not_final(run.recorded)}",
+            Text("Farthest from the bridge's plan"),
+            _noted(run.recorded, "{}", "{}, {}", distance_to_keep(rounded_up(zone.largest_distance_m, "0.01"))),
         ),
     ]
     blocks: list[Block] = [
         Paragraph(words),
         Picture(
             partial(exclusion_map, zone=zone, zones=run.planned.zones, ground=run.recorded.ground()),
-            "Exclusion zone of one run in plan, with its distance from the bridge to each side"
-            f"{_not_final(run.recorded)}.",
+            _noted(
+                run.recorded,
+                "Exclusion zone of one run in plan, with its distance from the bridge to each side.",
+                "Exclusion zone of one run in plan, with its distance from the bridge to each side, {}.",
+            ),
             map_height_mm(zone.whole.bounds()),
         ),
         facts(_ZONE, rows, "exclusion_zone_of_one_run"),
         Paragraph(
-            f"For the site plan: {', '.join(files)}; the corners of the zone are in exclusion_corners_of_one_run.csv."
+            Text(
+                "For the site plan: {}; the corners of the zone are in exclusion_corners_of_one_run.csv.",
+                ", ".join(files),
+            )
         ),
     ]
     if run.planned.charges:
-        warning = "This zone leaves out the pressure of the charges: see the rings of damage for that."
+        warning = Text("This zone leaves out the pressure of the charges: see the rings of damage for that.")
         blocks.insert(1, Paragraph(warning, is_notice=True))
     if run.planned.blast_zones:
-        warning = (
-            "This zone leaves out fragments that are smaller than shards: the site plan has areas of theirs, which are "
-            f"{NO_SAFETY_DISTANCE}."
+        warning = Text(
+            "This zone leaves out fragments that are smaller than shards: the site plan has areas of theirs, "
+            "which are {}.",
+            NO_SAFETY_DISTANCE,
         )
         blocks.insert(1, Paragraph(warning, is_notice=True))
     return Section(_ZONE, tuple(blocks))
@@ -112,7 +123,13 @@ def exclusion_section(zone: ExclusionZone | None, run: ReportedRun, files: Seque
 def _extent(axis: str, low_m: float, high_m: float) -> str:
     """Return from where to where a zone reaches, no end of it rounded inwards."""
     low, high, size = rounded_down(low_m, "0.01"), rounded_up(high_m, "0.01"), rounded_up(high_m - low_m, "0.01")
-    return f"from {axis} = {low} m to {high} m, {size} m"
+    return Text(
+        "from {} = {} to {}, {}",
+        axis,
+        Quantity(low, "m", rounding=UP if low_m < 0.0 else DOWN),
+        Quantity(high, "m", rounding=DOWN if high_m < 0.0 else UP),
+        distance_to_keep(size),
+    )
 
 
 def zone_of(run: ReportedRun) -> ExclusionZone | None:
@@ -126,7 +143,7 @@ def zone_of(run: ReportedRun) -> ExclusionZone | None:
 
 def corner_table(zone: ExclusionZone) -> DataTable:
     """Return the corners of the exclusion zone, for its CSV file."""
-    columns = (Column("ring", "ring"), Column("x (m)", "x_m", ".3f"), Column("y (m)", "y_m", ".3f"))
+    columns = (Column("ring", "ring"), Column("x", "x_m", ".3f"), Column("y", "y_m", ".3f"))
     rows = [
         (number, round(float(x), 4), round(float(y), 4))
         for number, ring in enumerate(outlines(zone.whole), start=1)
@@ -140,7 +157,14 @@ def _debris_blocks(
 ) -> list[Block]:
     covered = debris.outline if debris.area.is_empty() else debris.area
     low, high = np.array(covered.bounds()).reshape(2, 2)
-    extent = f", from x = {low[0]:.2f} to {high[0]:.2f} m, y = {low[1]:.2f} to {high[1]:.2f} m"
+    footprint = Text(
+        "{}, from x = {} to {}, y = {} to {}",
+        Quantity(debris.area.area(), "m²", ".1f"),
+        Quantity(low[0], "m", ".2f", shown=False),
+        Quantity(high[0], "m", ".2f"),
+        Quantity(low[1], "m", ".2f", shown=False),
+        Quantity(high[1], "m", ".2f"),
+    )
     mass = debris.masses_kg.sum()
     middle = debris.masses_kg @ results.frames.positions_m[-1, debris.bodies] / mass
     positions = results.frames.positions_m[-1, debris.bodies]
@@ -148,18 +172,29 @@ def _debris_blocks(
     solid = float(results.inventory.volumes_m3[debris.bodies].sum())
     shards = len(results.inventory.of_kind("shard"))
     rows = [
-        ("Debris", f"{len(debris.bodies)} of {shards} shards, {mass_text(mass, 2)}"),
-        ("Footprint", f"{debris.area.area():.1f} m²{extent if covered is debris.area else ''}"),
-        ("Bridge before", f"{debris.outline.area():.1f} m² in plan"),
-        ("Centre of mass", f"x = {middle[0]:.2f} m, y = {middle[1]:.2f} m, {above_m:.2f} m above the ground"),
-        ("Highest point of the pile", f"{debris.highest_m:.2f} m above the ground"),
+        (Text("Debris"), Text("{} of {} shards, {}", len(debris.bodies), shards, mass_text(mass, 2))),
         (
-            "Volume of the pile",
-            f"{volume_text(heights.volume_m3, 1)} under its surface, {volume_text(solid, 1)} of it solid",
+            Text("Footprint"),
+            footprint if covered is debris.area else Quantity(debris.area.area(), "m²", ".1f"),
+        ),
+        (Text("Bridge before"), Text("{} in plan", Quantity(debris.outline.area(), "m²", ".1f"))),
+        (
+            Text("Centre of mass"),
+            Text(
+                "x = {}, y = {}, {} above the ground",
+                Quantity(middle[0], "m", ".2f"),
+                Quantity(middle[1], "m", ".2f"),
+                Quantity(above_m, "m", ".2f"),
+            ),
+        ),
+        (Text("Highest point of the pile"), Text("{} above the ground", Quantity(debris.highest_m, "m", ".2f"))),
+        (
+            Text("Volume of the pile"),
+            Text("{} under its surface, {} of it solid", volume_text(heights.volume_m3, 1), volume_text(solid, 1)),
         ),
         (
-            "Farthest beyond the bridge's outline",
-            f"{rounded_up(float(debris.reaches_m.max()), '0.01')} m{_not_final(results)}",
+            Text("Farthest beyond the bridge's outline"),
+            _noted(results, "{}", "{}, {}", distance_to_keep(rounded_up(float(debris.reaches_m.max()), "0.01"))),
         ),
     ]
     bridge = np.array(debris.outline.bounds()).reshape(2, 2)
@@ -167,8 +202,13 @@ def _debris_blocks(
     return [
         Picture(
             partial(debris_map, results=results, debris=debris, zones=zones, trajectories=trajectories),
-            f"Debris at the end in plan{_not_final(results)}. Arrows and numbers: the largest throws, from where a "
-            "shard was to where it lies.",
+            _noted(
+                results,
+                "Debris at the end in plan. Arrows and numbers: the largest throws, from where a shard was to "
+                "where it lies.",
+                "Debris at the end in plan, {}. Arrows and numbers: the largest throws, from where a shard was to "
+                "where it lies.",
+            ),
             map_height_mm(bounds),
         ),
         facts("Debris at the end", rows, "debris"),
@@ -177,10 +217,14 @@ def _debris_blocks(
             "Height of the debris.",
             85.0,
         ),
-        _throw_table(debris, _not_final(results)),
+        _throw_table(results, debris),
         Picture(
             partial(throw_distribution, throws_m=debris.throws_m, masses_kg=debris.masses_kg),
-            f"How much of the debris was thrown farther than a distance{_not_final(results)}.",
+            _noted(
+                results,
+                "How much of the debris was thrown farther than a distance.",
+                "How much of the debris was thrown farther than a distance, {}.",
+            ),
             75.0,
         ),
         _largest_throws(results, debris),
@@ -198,15 +242,19 @@ def terrain_section(run: ReportedRun) -> Section | None:
         blocks.append(facts("Ground", terrain_summary(facts_from(run.summary.terrain)), "terrain"))
     if ground.surfaces:
         rows = [
-            (surface.name, f"{surface.kind}, {ground.shown(surface).area():.1f} m² in plan")
+            (
+                surface.name,
+                Text("{}, {} in plan", Text(surface.kind), Quantity(ground.shown(surface).area(), "m²", ".1f")),
+            )
             for surface in ground.surfaces
         ]
         blocks.append(facts("Surfaces on the ground", rows, "surfaces"))
     if len(under):
-        words = (
-            f"{len(under)} bodies went through the ground or off its edge, such as "
-            f"{results.inventory.body_names[under[0]]}: their throws are wrong. Small fast bodies need more "
-            "sub-steps: set time.farthest_per_substep_m to a part of the smallest shard."
+        words = Text(
+            "{} bodies went through the ground or off its edge, such as {}: their throws are wrong. Small fast "
+            "bodies need more sub-steps: set time.farthest_per_substep_m to a part of the smallest shard.",
+            len(under),
+            results.inventory.body_names[under[0]],
         )
         blocks.append(Paragraph(words, is_notice=True))
     return Section("Terrain", tuple(blocks)) if blocks else None
@@ -219,12 +267,12 @@ def _on_surfaces(results: Results, debris: Debris) -> list[Block]:
         return []
     columns = (
         Column("surface", "surface", "", lambda surface: surface.name),
-        Column("kind", "kind", "", lambda surface: surface.kind),
+        Column("kind", "kind", "", lambda surface: Text(surface.kind)),
         Column("shards on it", "shards", "d", lambda surface: len(surface.bodies)),
-        Column("mass (t)", "mass_t", ".2f", significant=3, value=lambda surface: surface.mass_kg / 1e3),
-        Column("covered (m²)", "covered_m2", ".1f", lambda surface: surface.covered_m2),
+        Column("mass", "mass_t", ".2f", significant=3, value=lambda surface: surface.mass_kg / 1e3),
+        Column("covered", "covered_m2", ".1f", lambda surface: surface.covered_m2),
     )
-    title = "Debris over each surface, by where its middle lies in plan"
+    title = Text("Debris over each surface, by where its middle lies in plan")
     return [DataTable.of("debris_on_surfaces", title, columns, surfaces)]
 
 
@@ -236,26 +284,37 @@ def _doubts(results: Results) -> list[Block]:
         return []
     farthest = int(np.flatnonzero(throws.doubtful)[0])
     name, throw_m = results.inventory.body_names[throws.bodies[farthest]], throws.throws_m[farthest]
-    words = (
-        f"{count} throws are doubtful: at least half of the shard's kinetic energy came from the solver, or, without "
-        "charges, the throw is more than twice the height of fall, to which v²/2g counts for the speed v at the start "
-        f"and that of a ball. The farthest is {name}, {throw_m:.1f} m. Do not plan with these throws; make sub-steps "
-        "shorter and run again."
+    words = Text(
+        "{} throws are doubtful: at least half of the shard's kinetic energy came from the solver, or, without "
+        "charges, the throw is more than twice the height of fall, to which v²/2g counts for the speed v at the "
+        "start and that of a ball. The farthest is {}, {}. Do not plan with these throws; make sub-steps shorter "
+        "and run again.",
+        count,
+        name,
+        distance_to_keep(throw_m, ".1f"),
     )
     return [Paragraph(words, is_notice=True)]
 
 
-def _throw_table(debris: Debris, note: str) -> DataTable:
+def _throw_table(results: Results, debris: Debris) -> DataTable:
     by_number = np.ones(len(debris.throws_m))
     columns = (
-        Column("of the debris (%)", "percent", "d", lambda percent, *_: percent),
-        Column("by mass, thrown up to (m)", "throw_by_mass_m", ".2f", lambda _, by_mass_m, *__: float(by_mass_m)),
-        Column("by number, thrown up to (m)", "throw_by_number_m", ".2f", lambda *row: float(row[2])),
-        Column("by mass, beyond the outline up to (m)", "reach_by_mass_m", ".2f", lambda *row: float(row[3])),
+        Column("of the debris", "percent", "d", lambda percent, *_: percent, unit="%"),
+        Column(
+            "by mass, thrown up to", "throw_by_mass_m", ".2f", lambda _, by_mass_m, *__: float(by_mass_m), is_reach=True
+        ),
+        Column("by number, thrown up to", "throw_by_number_m", ".2f", lambda *row: float(row[2]), is_reach=True),
+        Column(
+            "by mass, beyond the outline up to", "reach_by_mass_m", ".2f", lambda *row: float(row[3]), is_reach=True
+        ),
     )
     return DataTable.of(
         "throw_percentiles",
-        f"Throw and debris distance: share of the debris that stayed within{note}",
+        _noted(
+            results,
+            "Throw and debris distance: share of the debris that stayed within",
+            "Throw and debris distance: share of the debris that stayed within, {}",
+        ),
         columns,
         PERCENTS,
         percentiles_by_mass(debris.throws_m, debris.masses_kg),
@@ -273,26 +332,29 @@ def _largest_throws(results: Results, debris: Debris) -> DataTable:
     columns = (
         Column("shard", "shard", "", lambda row: str(inventory.body_names[bodies[row]])),
         Column("of", "member", "", lambda row: str(inventory.body_members[bodies[row]])),
-        Column("mass (kg)", "mass_kg", ".0f", significant=3, value=lambda row: float(debris.masses_kg[row])),
-        Column("throw (m)", "throw_m", ".2f", lambda row: float(debris.throws_m[row])),
-        Column("debris distance (m)", "reach_m", ".2f", lambda row: float(debris.reaches_m[row])),
-        Column("to x (m)", "x_m", ".2f", lambda row: float(last_m[bodies[row], 0])),
-        Column("y (m)", "y_m", ".2f", lambda row: float(last_m[bodies[row], 1])),
-        Column("z (m)", "z_m", ".2f", lambda row: float(last_m[bodies[row], 2])),
-        Column("at the end (m/s)", "end_speed_m_s", ".2f", lambda row: float(speeds[bodies[row]])),
-        Column("by the solver (%)", "made_by_solver_percent", ".0f", lambda row: 100.0 * shares[bodies[row]]),
-        Column("doubtful", "doubtful", "", lambda row: "yes" if doubts[bodies[row]] else "no"),
+        Column("mass", "mass_kg", ".0f", significant=3, value=lambda row: float(debris.masses_kg[row])),
+        Column("throw", "throw_m", ".2f", lambda row: float(debris.throws_m[row]), is_reach=True),
+        Column("debris distance", "reach_m", ".2f", lambda row: float(debris.reaches_m[row]), is_reach=True),
+        Column("to x", "x_m", ".2f", lambda row: float(last_m[bodies[row], 0])),
+        Column("y", "y_m", ".2f", lambda row: float(last_m[bodies[row], 1])),
+        Column("z", "z_m", ".2f", lambda row: float(last_m[bodies[row], 2])),
+        Column("at the end", "end_speed_m_s", ".2f", lambda row: float(speeds[bodies[row]])),
+        Column("by the solver", "made_by_solver_percent", ".0f", lambda row: 100.0 * shares[bodies[row]]),
+        Column("doubtful", "doubtful", "", lambda row: Text("yes") if doubts[bodies[row]] else Text("no")),
     )
     farthest = np.argsort(-debris.throws_m, kind="stable")[:NAMED]
-    by_solver = "By the solver: energy that it made, over the shard's largest kinetic energy"
-    title = f"Largest throws{_not_final(results)}. {by_solver}"
+    title = _noted(
+        results,
+        "Largest throws. By the solver: energy that it made, over the shard's largest kinetic energy",
+        "Largest throws, {}. By the solver: energy that it made, over the shard's largest kinetic energy",
+    )
     return DataTable.of("largest_throws", title, columns, farthest)
 
 
-def _not_final(results: Results) -> str:
-    """Return the words that go with distances where shards still moved, after a comma; empty where all rested."""
+def _noted(results: Results, final: str, not_final: str, *values: str) -> Text:
+    """Return a text by one pattern, or by that which says at its end that shards still moved."""
     note = still_moving_note(results)
-    return f", {note}" if note else ""
+    return Text(not_final, *values, note) if note else Text(final, *values)
 
 
 def _zone_blocks(run: ReportedRun, zones: Sequence[Zone]) -> list[Block]:
@@ -304,12 +366,12 @@ def _zone_blocks(run: ReportedRun, zones: Sequence[Zone]) -> list[Block]:
     names = results.inventory.body_names
     columns = (
         Column("zone", "zone", "", lambda watch, _: watch.zone.name),
-        Column("kind", "kind", "", lambda watch, _: watch.zone.kind),
-        Column("first entered (s)", "first_entry_s", ".3f", lambda _, first: first and float(first.time_s)),
-        Column("by", "first_body", "", lambda _, first: str(names[first.body]) if first else "no body"),
+        Column("kind", "kind", "", lambda watch, _: Text(watch.zone.kind)),
+        Column("first entered", "first_entry_s", ".3f", lambda _, first: first and float(first.time_s)),
+        Column("by", "first_body", "", lambda _, first: str(names[first.body]) if first else Text("no body")),
         Column("bodies that entered", "bodies_entered", "d", lambda watch, _: len(watch.entries)),
         Column(
-            "mass within at the end (t)",
+            "mass within at the end",
             "mass_within_t",
             ".2f",
             significant=3,
@@ -318,8 +380,9 @@ def _zone_blocks(run: ReportedRun, zones: Sequence[Zone]) -> list[Block]:
         Column("there before", "bodies_there_before", "d", lambda watch, _: len(watch.there_before)),
     )
     first_entries = [watch.entries[0] if watch.entries else None for watch in watches]
-    words = (
-        "A zone is entered when the convex hull of a shard or ball first enters it, to a millisecond: between frames "
-        "bodies are taken to move and rotate evenly. Bodies that were in a zone at the beginning are counted apart."
+    words = Text(
+        "A zone is entered when the convex hull of a shard or ball first enters it, to a millisecond: between "
+        "frames bodies are taken to move and rotate evenly. Bodies that were in a zone at the beginning are "
+        "counted apart."
     )
     return [Paragraph(words), DataTable.of("zones", "Zones", columns, watches, first_entries)]

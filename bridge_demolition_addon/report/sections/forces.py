@@ -13,14 +13,15 @@ from ...charts.stress_elevation import stress_elevation
 from ...model.results.arrays import Results
 from ...model.results.force_history import breaking_by_kind, contact_forces, most_loaded
 from ...model.run_folder.logs import LoggedForces
+from ...texts import Text
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section
 from ..run_folder import ReportedRun
 from .bars import bar_blocks
 from .bearings import bearing_blocks
 
-_BEYOND_THE_FORCE = (
-    "The force of a connection is the resultant of its three directions. Each direction by itself is held up to the "
-    "breaking force, so that the resultant can be up to √3 times as large."
+_BEYOND_THE_FORCE = Text(
+    "The force of a connection is the resultant of its three directions. Each direction by itself is held up to "
+    "the breaking force, so that the resultant can be up to √3 times as large."
 )
 
 
@@ -68,7 +69,7 @@ def logged_section(run: ReportedRun) -> Section:
         )
         blocks.append(Picture(draw, "Largest load on a shard or ball, as far as logged."))
     if run.logged_breaks is not None:
-        blocks.append(Paragraph(f"Connections cracked or torn as far as logged: {run.logged_breaks}."))
+        blocks.append(Paragraph(Text("Connections cracked or torn as far as logged: {}.", run.logged_breaks)))
     return Section("Forces as far as logged", tuple(blocks))
 
 
@@ -78,15 +79,15 @@ def _loaded_bodies(results: Results) -> DataTable:
     columns = (
         Column("shard", "shard", "", lambda peak: str(inventory.body_names[peak.row])),
         Column("of", "member", "", lambda peak: str(inventory.body_members[peak.row])),
-        Column("mass (kg)", "mass_kg", ".0f", significant=3, value=lambda peak: float(inventory.masses_kg[peak.row])),
-        Column("sum of magnitudes (kN)", "peak_force_sum_kN", ".1f", lambda peak: float(peak.force_n / 1e3)),
+        Column("mass", "mass_kg", ".0f", significant=3, value=lambda peak: float(inventory.masses_kg[peak.row])),
+        Column("sum of magnitudes", "peak_force_sum_kN", ".1f", lambda peak: float(peak.force_n / 1e3)),
         Column(
-            "resultant then (kN)",
+            "resultant then",
             "peak_force_kN",
             ".1f",
             lambda peak: float(resultants_n[peak.step, peak.row] / 1e3),
         ),
-        Column("time (s)", "time_s", ".3f", lambda peak: float(frames.time_s[peak.step])),
+        Column("time", "time_s", ".3f", lambda peak: float(frames.time_s[peak.step])),
     )
     peaks = most_loaded(frames.loads.body_peak_sums_n, inventory.of_kind("shard"))
     return DataTable.of("most_loaded_shards", "The ten most loaded shards", columns, peaks)
@@ -99,10 +100,10 @@ def _loaded_connections(results: Results) -> DataTable:
         Column("connection", "connection", "", lambda peak: str(inventory.connection_names[peak.row])),
         Column("between", "first_body", "", lambda peak: str(ends[peak.row, 0])),
         Column("and", "second_body", "", lambda peak: str(ends[peak.row, 1])),
-        Column("area (m²)", "area_m2", ".3f", lambda peak: _area_m2(inventory.areas_m2[peak.row])),
-        Column("force (kN)", "peak_force_kN", ".1f", lambda peak: peak.force_n / 1e3),
-        Column("time (s)", "time_s", ".3f", lambda peak: float(frames.time_s[peak.step])),
-        Column("broken at (s)", "broken_s", ".3f", lambda peak: _broken_s(results, peak.row)),
+        Column("area", "area_m2", ".3f", lambda peak: _area_m2(inventory.areas_m2[peak.row])),
+        Column("force", "peak_force_kN", ".1f", lambda peak: peak.force_n / 1e3),
+        Column("time", "time_s", ".3f", lambda peak: float(frames.time_s[peak.step])),
+        Column("broken at", "broken_s", ".3f", lambda peak: _broken_s(results, peak.row)),
     )
     peaks = most_loaded(frames.loads.connection_peaks_n, np.arange(len(inventory.pairs)))
     return DataTable.of("most_loaded_connections", "The ten most loaded connections", columns, peaks)
@@ -129,19 +130,20 @@ def _hit_blocks(run: ReportedRun) -> list[Block]:
 
     columns = (
         Column("ball", "ball", "", lambda hit: hit["ball"]),
-        Column("time (s)", "time_s", ".3f", scaled("time_s")),
-        Column("lasted (ms)", "lasted_ms", ".1f", scaled("lasted_s", 1e3)),
-        Column("speed (m/s)", "approach_m_s", ".2f", scaled("approach_m_s")),
-        Column("impulse (kN·s)", "impulse_kNs", ".2f", scaled("impulse_Ns", 1e-3)),
-        Column("raw peak (MN)", "raw_peak_force_MN", ".2f", scaled("raw_peak_force_N", 1e-6)),
-        Column("half sine (MN)", "half_sine_peak_force_MN", ".2f", scaled("half_sine_peak_force_N", 1e-6)),
-        Column("Hertz (MN)", "hertz_peak_force_MN", ".2f", scaled("hertz_peak_force_N", 1e-6)),
+        Column("time", "time_s", ".3f", scaled("time_s")),
+        Column("lasted", "lasted_ms", ".1f", scaled("lasted_s", 1e3)),
+        Column("speed", "approach_m_s", ".2f", scaled("approach_m_s")),
+        Column("impulse", "impulse_kNs", ".2f", scaled("impulse_Ns", 1e-3), unit="kN·s"),
+        Column("raw peak", "raw_peak_force_MN", ".2f", scaled("raw_peak_force_N", 1e-6), unit="MN"),
+        Column("half sine", "half_sine_peak_force_MN", ".2f", scaled("half_sine_peak_force_N", 1e-6), unit="MN"),
+        Column("Hertz", "hertz_peak_force_MN", ".2f", scaled("hertz_peak_force_N", 1e-6), unit="MN"),
     )
-    notes = (
-        "The impulse of a hit does not depend on the step of the physics, the raw peak does. Half sine: the impulse "
-        "spread over Hertz's or the given contact time. Hertz: the force of an elastic hit, which steel and concrete "
-        "cannot reach, an upper bound for a ball that flies into something. Where falling debris pushes the ball "
-        "while it touches, the impulse is larger than the speed explains, and Hertz's force says nothing."
+    notes = Text(
+        "The impulse of a hit does not depend on the step of the physics, the raw peak does. Half sine: the "
+        "impulse spread over Hertz's or the given contact time. Hertz: the force of an elastic hit, which steel "
+        "and concrete cannot reach, an upper bound for a ball that flies into something. Where falling debris "
+        "pushes the ball while it touches, the impulse is larger than the speed explains, and Hertz's force says "
+        "nothing."
     )
     return [DataTable.of("hits_of_the_ball", "Hits of the ball", columns, hits), Paragraph(notes)]
 
@@ -150,19 +152,19 @@ def _stress_blocks(run: ReportedRun) -> list[Block]:
     results, moments = run.recorded, []
     if run.ball.impact_s is not None:
         moments.append(
-            (int(np.abs(results.frames.time_s - run.ball.impact_s).argmin()), "in the frame of the ball's impact")
+            (int(np.abs(results.frames.time_s - run.ball.impact_s).argmin()), Text("in the frame of the ball's impact"))
         )
     peaks = most_loaded(results.frames.loads.body_peak_sums_n, results.inventory.of_kind("shard"), 1)
     if peaks:
-        moments.append((peaks[0].step, "in the frame of the largest load"))
+        moments.append((peaks[0].step, Text("in the frame of the largest load")))
     caption = (
-        "Equivalent stress of the shards {}, {:.3f} s, seen from the side, nearer shards in front: the mean over each "
+        "Equivalent stress of the shards {}, {} s, seen from the side, nearer shards in front: the mean over each "
         "shard, in the sub-step of the frame in which its loads were largest."
     )
     return [
         Picture(
             partial(stress_elevation, results=results, step=step),
-            caption.format(words, results.frames.time_s[step]),
+            Text(caption, words, f"{results.frames.time_s[step]:.3f}"),
             85.0,
         )
         for step, words in moments
@@ -179,10 +181,10 @@ def _breaking_blocks(run: ReportedRun) -> list[Block]:
         Column("connections", "kind", "", lambda kind: kind.kind),
         Column("there were", "count", "d", lambda kind: kind.count),
         Column("cracked or torn", "broken", "d", lambda kind: int(kind.broken[-1])),
-        Column("cracked or torn (%)", "broken_percent", ".1f", lambda kind: 100.0 * kind.broken[-1] / kind.count),
+        Column("cracked or torn", "broken_percent", ".1f", lambda kind: 100.0 * kind.broken[-1] / kind.count),
         Column("torn", "torn", "d", lambda kind: None if kind.torn is None else int(kind.torn[-1])),
         Column(
-            "first at (s)",
+            "first at",
             "first_break_s",
             ".3f",
             lambda kind: float(results.frames.time_s[(kind.broken > 0).argmax()]) if kind.broken.any() else None,

@@ -16,14 +16,17 @@ from ...model.results.arrays import Results
 from ...model.run_folder.files import GROUND_MOTION_FILE
 from ...model.scenario import Neighbour, Scenario
 from ...model.structure.settlement import settlements
+from ...texts import Quantity, Text, joined
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section
 from ..run_folder import ReportedRun
 
-_SHAKING = (
-    f"Largest velocity of the ground by v = {100.0 * VELOCITY_M_S:.3g} cm/s (R / (E / 10 kJ)^(1/3))^-{EXPONENT:g} "
-    f"(Zhou), with the distance R in m and the kinetic energy E in kJ of what lands within {TOGETHER_S:g} s. It is an "
-    "estimate: a factor of two to either side is usual, and soil, ditches and banks change it. "
-    "One run is one possible outcome: a study gives the range."
+_SHAKING = Text(
+    "Largest velocity of the ground by v = {} cm/s (R / (E / 10 kJ)^(1/3))^-{} (Zhou), with the distance R in m "
+    "and the kinetic energy E in kJ of what lands within {} s. It is an estimate: a factor of two to either side "
+    "is usual, and soil, ditches and banks change it. One run is one possible outcome: a study gives the range.",
+    f"{100.0 * VELOCITY_M_S:.3g}",
+    f"{EXPONENT:g}",
+    f"{TOGETHER_S:g}",
 )
 
 
@@ -43,7 +46,7 @@ def _motion_blocks(run: ReportedRun, motion: GroundMotion) -> list[Block]:
     try:
         record, start_s = read_record(run.folder / GROUND_MOTION_FILE)
     except ScenarioError as error:
-        return [Paragraph(f"The ground moved, but its record is not there: {error}.", is_notice=True)]
+        return [Paragraph(Text("The ground moved, but its record is not there: {}.", error), is_notice=True)]
     return [
         Paragraph(_motion_text(motion)),
         _peak_table(record),
@@ -61,22 +64,28 @@ def _motion_blocks(run: ReportedRun, motion: GroundMotion) -> list[Block]:
 def _motion_text(motion: GroundMotion) -> str:
     if motion.spectrum:
         spectrum = motion.spectrum
-        source = (
-            f"a record made from the spectrum of EN 1998-1, type {spectrum.type}, ground {spectrum.ground_type}, "
-            f"with {spectrum.acceleration_m_s2:g} m/s² on rock: sines with random phases under an envelope"
+        source = Text(
+            "a record made from the spectrum of EN 1998-1, type {}, ground {}, with {} on rock: sines with random "
+            "phases under an envelope",
+            spectrum.type,
+            spectrum.ground_type,
+            Quantity(spectrum.acceleration_m_s2, "m/s²", "g"),
         )
     elif motion.sweep:
-        source = f"a sine from {motion.sweep.from_hz:g} to {motion.sweep.to_hz:g} Hz"
+        source = Text("a sine from {} to {} Hz", f"{motion.sweep.from_hz:g}", f"{motion.sweep.to_hz:g}")
     else:
-        source = f"the accelerogram {motion.file}"
+        source = Text("the accelerogram {}", motion.file)
     baselines = {
-        "linear": "a straight line was subtracted, so that the ground ends at rest where it began",
-        "parabola": "a parabola was subtracted, so that the ground ends at rest where it began",
-        "none": "nothing was subtracted",
+        "linear": Text("a straight line was subtracted, so that the ground ends at rest where it began"),
+        "parabola": Text("a parabola was subtracted, so that the ground ends at rest where it began"),
+        "none": Text("nothing was subtracted"),
     }
-    return (
-        f"The ground and all that is fixed to it moved by {source}, times {motion.factor:g}. Baseline: "
-        f"{baselines[motion.baseline]}. Throws, rest and collapse in this report are as seen from the ground."
+    return Text(
+        "The ground and all that is fixed to it moved by {}, times {}. Baseline: {}. Throws, rest and collapse in "
+        "this report are as seen from the ground.",
+        source,
+        f"{motion.factor:g}",
+        baselines[motion.baseline],
     )
 
 
@@ -84,28 +93,29 @@ def _peak_table(record: GroundRecord) -> DataTable:
     peaks = record.peaks()
     accelerations, velocities = peaks["accelerations_m_s2"], peaks["velocities_m_s"]
     columns = (
-        Column("direction", "direction", "", lambda axis: DIRECTIONS[axis]),
-        Column("acceleration (m/s²)", "peak_acceleration_m_s2", ".2f", lambda axis: accelerations[axis]),
+        Column("direction", "direction", "", lambda axis: Text(DIRECTIONS[axis])),
+        Column("acceleration", "peak_acceleration_m_s2", ".2f", lambda axis: accelerations[axis]),
         Column(
-            "acceleration (share of g)",
+            "acceleration",
             "peak_acceleration_g",
             ".3f",
             lambda axis: accelerations[axis] / STANDARD_GRAVITY_M_S2,
+            unit="share of g",
         ),
-        Column("velocity (m/s)", "peak_velocity_m_s", ".3f", lambda axis: velocities[axis]),
-        Column("displacement (m)", "peak_displacement_m", ".3f", lambda axis: peaks["displacements_m"][axis]),
+        Column("velocity", "peak_velocity_m_s", ".3f", lambda axis: velocities[axis]),
+        Column("displacement", "peak_displacement_m", ".3f", lambda axis: peaks["displacements_m"][axis]),
     )
-    title = "Largest of the ground's motion"
+    title = Text("Largest of the ground's motion")
     return DataTable.of("ground_motion_peaks", title, columns, moving_directions(record))
 
 
 def _settlement_blocks(results: Results, scenario: Scenario) -> list[Block]:
     columns = (
         Column("member", "member", "", lambda footing: footing["member"]),
-        Column("settled (mm)", "settled_mm", ".2f", lambda footing: 1e3 * footing["settled_m"]),
-        Column("at most (mm)", "most_settled_mm", ".2f", lambda footing: 1e3 * footing["most_settled_m"]),
-        Column("slid (mm)", "slid_mm", ".2f", lambda footing: 1e3 * footing["slid_m"]),
-        Column("leans (mrad)", "tilt_mrad", ".2f", lambda footing: 1e3 * footing["tilt_rad"]),
+        Column("settled", "settled_mm", ".2f", lambda footing: 1e3 * footing["settled_m"]),
+        Column("at most", "most_settled_mm", ".2f", lambda footing: 1e3 * footing["most_settled_m"]),
+        Column("slid", "slid_mm", ".2f", lambda footing: 1e3 * footing["slid_m"]),
+        Column("leans", "tilt_mrad", ".2f", lambda footing: 1e3 * footing["tilt_rad"], unit="mrad"),
     )
     footings = settlements(results, scenario.foundations)
     return [
@@ -136,15 +146,15 @@ def _shaking_table(shaken: Sequence[tuple[str, Shaking]]) -> DataTable:
     columns = (
         Column("neighbour", "neighbour", "", lambda name, _: name),
         Column(
-            "ground velocity (mm/s)",
+            "ground velocity",
             "peak_particle_velocity_mm_s",
             ".2f",
             lambda _, shaking: 1e3 * shaking.velocity_m_s,
         ),
-        Column("from (s)", "time_s", ".2f", lambda _, shaking: shaking.time_s),
-        Column("mass (t)", "mass_t", ".1f", significant=3, value=lambda _, shaking: 1e-3 * shaking.mass_kg),
-        Column("energy (kJ)", "energy_kJ", ".0f", lambda _, shaking: 1e-3 * shaking.energy_j),
-        Column("distance (m)", "distance_m", ".1f", lambda _, shaking: shaking.distance_m),
+        Column(Text("from", context="time"), "time_s", ".2f", lambda _, shaking: shaking.time_s),
+        Column("mass", "mass_t", ".1f", significant=3, value=lambda _, shaking: 1e-3 * shaking.mass_kg),
+        Column("energy", "energy_kJ", ".0f", lambda _, shaking: 1e-3 * shaking.energy_j),
+        Column("distance", "distance_m", ".1f", lambda _, shaking: shaking.distance_m),
         Column("reaches the limit for", "limits", "", lambda _, shaking: _limits_reached(shaking)),
     )
     names, shakings = zip(*shaken, strict=True) if shaken else ((), ())
@@ -152,13 +162,13 @@ def _shaking_table(shaken: Sequence[tuple[str, Shaking]]) -> DataTable:
 
 
 def _limits_reached(shaking: Shaking) -> str:
-    return ", ".join(limit.building for limit in reached(shaking.velocity_m_s)) or "none"
+    return joined("{}, {}", [limit.building for limit in reached(shaking.velocity_m_s)]) or Text("none")
 
 
 def _limit_table() -> DataTable:
     columns = (
         Column("building", "building", "", lambda limit: limit.building),
-        Column("velocity (mm/s)", "velocity_mm_s", ".0f", lambda limit: 1e3 * limit.velocity_m_s),
+        Column("velocity", "velocity_mm_s", ".0f", lambda limit: 1e3 * limit.velocity_m_s),
         Column("source", "source", "", lambda limit: limit.source),
     )
     return DataTable.of("vibration_limits", "Limits at low frequency, at the foundation", columns, LIMITS)

@@ -10,11 +10,12 @@ from collections.abc import Container, Sequence
 from dataclasses import dataclass, replace
 
 from ...model.scenario import Scenario
+from ...texts import Text, joined
 from ..document.blocks import Column, DataTable, Document, Paragraph, Photo, Picture, Section
 
-TITLE = "Contents of a demolition plan"
+TITLE = Text("Contents of a demolition plan")
 
-EXPLOSIVES, BALL = "explosives", "ball"
+EXPLOSIVES, BALL = "explosives", Text("ball")
 """Means that an item is asked for with; others are always asked for."""
 
 MOP_157 = "ASCE MOP 157"
@@ -24,11 +25,12 @@ DGUV = "DGUV Regel 101-603, 5.2"
 SPRENGV = "3. SprengV, § 1"
 HONG_KONG = "Hong Kong CoP 2004"
 
-_WORDS = (
+_WORDS = Text(
     "What public sources ask a demolition plan to contain, and where this report says something about it. What it "
-    "cannot say is left blank for those who are named. Clauses are named by their titles; what a law, a contract or "
-    "the text of a standard asks for beyond that is for the engineer to find out. Hong Kong CoP 2004 is the Code of "
-    "Practice for Demolition of Buildings; 3. SprengV is the third ordinance of the German law on explosives."
+    "cannot say is left blank for those who are named. Clauses are named by their titles; what a law, a contract "
+    "or the text of a standard asks for beyond that is for the engineer to find out. Hong Kong CoP 2004 is the "
+    "Code of Practice for Demolition of Buildings; 3. SprengV is the third ordinance of the German law on "
+    "explosives."
 )
 _BLANK = "________"
 
@@ -47,185 +49,212 @@ class PlanItem:
 
 PLAN_ITEMS = (
     PlanItem(
-        "Roles and responsibilities", (f"{MOP_157}, 1.2 Roles and Responsibilities",), (), "client", "names, duties"
+        Text("Roles and responsibilities"),
+        (f"{MOP_157}, 1.2 Roles and Responsibilities",),
+        (),
+        Text("client"),
+        Text("names, duties"),
     ),
     PlanItem(
-        "Permits and notices",
+        Text("Permits and notices"),
         (DGUV, "HSE, Demolition: notice to the local authority"),
         (),
-        "contractor",
-        "numbers and dates of permits",
+        Text("contractor"),
+        Text("numbers and dates of permits"),
     ),
-    PlanItem("Notice of the blasting", (SPRENGV,), ("Charge plan", "Blast"), "blaster", "licence, date", EXPLOSIVES),
     PlanItem(
-        "Survey of the structure and its condition",
+        Text("Notice of the blasting"),
+        (SPRENGV,),
+        (Text("Charge plan"), Text("Blast")),
+        Text("blaster"),
+        Text("licence, date"),
+        EXPLOSIVES,
+    ),
+    PlanItem(
+        Text("Survey of the structure and its condition"),
         ("29 CFR 1926.850(a) engineering survey", f"{BS_6187}, 7 Knowledge of the site"),
-        ("Reinforcement",),
-        "engineer",
-        "drawings, alterations, damage, what was measured on site",
+        (Text("Reinforcement"),),
+        Text("engineer"),
+        Text("drawings, alterations, damage, what was measured on site"),
     ),
     PlanItem(
-        "Method, and why it was chosen",
+        Text("Method, and why it was chosen"),
         (f"{MOP_157}, 1.3 Choosing the Right Demolition Method", f"{DIN_18007}: methods and where they apply"),
-        ("Planned sequence",),
-        "engineer",
-        "reasons",
+        (Text("Planned sequence"),),
+        Text("engineer"),
+        Text("reasons"),
     ),
     PlanItem(
-        "Sequence of the work",
+        Text("Sequence of the work"),
         (f"{HONG_KONG}, 2.1.3 Demolition Plan", "CDM 2015, regulation 20: arrangements in writing"),
-        ("Planned sequence", "Stages"),
-        "contractor",
-        "work before and after",
+        (Text("Planned sequence"), Text("Stages")),
+        Text("contractor"),
+        Text("work before and after"),
     ),
     PlanItem(
-        "Stability in each stage",
+        Text("Stability in each stage"),
         (f"{BS_6187}, 15 Avoidance of unplanned structural collapses", f"{HONG_KONG}, 2.1.3 Stability Report"),
-        ("Stages",),
-        "engineer",
-        "check by hand, name",
+        (Text("Stages"),),
+        Text("engineer"),
+        Text("check by hand, name"),
     ),
     PlanItem(
-        "Temporary supports",
+        Text("Temporary supports"),
         (f"{BS_6187}, 16 Temporary structures for stability, support and access",),
         (),
-        "engineer",
-        "design",
+        Text("engineer"),
+        Text("design"),
     ),
     PlanItem(
-        "Machines on the bridge and their loads",
+        Text("Machines on the bridge and their loads"),
         (f"{MOP_157}: equipment and tools; loads",),
-        ("Planned sequence", "Stages"),
-        "contractor",
-        "types and masses of machines",
+        (Text("Planned sequence"), Text("Stages")),
+        Text("contractor"),
+        Text("types and masses of machines"),
     ),
     PlanItem(
-        "Crane and line of the ball",
+        Text("Crane and line of the ball"),
         ("29 CFR 1926.859(b) mechanical demolition",),
-        ("Planned sequence",),
-        "contractor",
-        "rated load of the crane, breaking strength of the line",
+        (Text("Planned sequence"),),
+        Text("contractor"),
+        Text("rated load of the crane, breaking strength of the line"),
         BALL,
     ),
     PlanItem(
-        "Course of the collapse, and where debris lies",
+        Text("Course of the collapse, and where debris lies"),
         (f"{BS_6187}, 14 Structural demolition: principles, mechanisms and hazards",),
-        ("Findings", "Collapse", "Debris", "Tendons", "Pulls", "What this study says", "How far debris gets"),
-        "engineer",
-        "judgement of the forecast",
+        (
+            Text("Findings"),
+            Text("Collapse"),
+            Text("Debris"),
+            Text("Tendons"),
+            Text("Pulls"),
+            Text("What this study says"),
+            Text("How far debris gets"),
+        ),
+        Text("engineer"),
+        Text("judgement of the forecast"),
     ),
     PlanItem(
-        "Exclusion zone: plan area, designed drop, predicted debris, buffer",
+        Text("Exclusion zone: plan area, designed drop, predicted debris, buffer"),
         (f"{BS_6187}, 13 Safe working spaces and exclusion zones",),
-        ("Exclusion zone of one run", "Plan"),
-        "engineer",
-        "width of the buffer and its reasons; who guards the zone",
+        (Text("Exclusion zone of one run"), Text("Plan")),
+        Text("engineer"),
+        Text("width of the buffer and its reasons; who guards the zone"),
     ),
     PlanItem(
-        "Flying fragments",
+        Text("Flying fragments"),
         (f"{DIN_18007}, Annex D flying fragments", SPRENGV),
-        ("Charge plan", "How far fragments fly"),
-        "blaster",
-        "cover, test shots",
+        (Text("Charge plan"), Text("How far fragments fly")),
+        Text("blaster"),
+        Text("cover, test shots"),
         EXPLOSIVES,
     ),
     PlanItem(
-        "Charges, delays, largest charge per delay",
+        Text("Charges, delays, largest charge per delay"),
         (SPRENGV, f"{MOP_157}: demolition with explosives"),
-        ("Charge plan", "Blast"),
-        "blaster",
-        "test shots, firing circuit",
+        (Text("Charge plan"), Text("Blast")),
+        Text("blaster"),
+        Text("test shots, firing circuit"),
         EXPLOSIVES,
     ),
     PlanItem(
-        "Vibration of the ground",
+        Text("Vibration of the ground"),
         (f"{DIN_18007}, Annex A vibration", SPRENGV),
-        ("Shaking of the ground by the fall", "Charge plan", "Blast", "Neighbours"),
-        "engineer",
-        "limits of each building, measurements",
+        (Text("Shaking of the ground by the fall"), Text("Charge plan"), Text("Blast"), Text("Neighbours")),
+        Text("engineer"),
+        Text("limits of each building, measurements"),
     ),
     PlanItem(
-        "Air pressure and noise",
+        Text("Air pressure and noise"),
         (f"{DIN_18007}, Annex B noise", SPRENGV),
-        ("Blast", "Charge plan", "Neighbours"),
-        "contractor",
-        "noise of machines",
+        (Text("Blast"), Text("Charge plan"), Text("Neighbours")),
+        Text("contractor"),
+        Text("noise of machines"),
     ),
-    PlanItem("Dust", (f"{DIN_18007}, Annex C dust",), (), "contractor", "measures"),
-    PlanItem("Water", (f"{DIN_18007}, Annex E water",), (), "contractor", "measures"),
+    PlanItem(Text("Dust"), (f"{DIN_18007}, Annex C dust",), (), Text("contractor"), Text("measures")),
+    PlanItem(Text("Water"), (f"{DIN_18007}, Annex E water",), (), Text("contractor"), Text("measures")),
     PlanItem(
-        "Neighbouring structures",
+        Text("Neighbouring structures"),
         ("29 CFR 1926.850(a) adjacent structures", f"{SPRENGV} site plan", f"{HONG_KONG}, 2.1.3 Demolition Plan"),
-        ("Shaking of the ground by the fall", "Charge plan", "Blast", "Neighbours"),
-        "engineer",
-        "their condition before",
+        (Text("Shaking of the ground by the fall"), Text("Charge plan"), Text("Blast"), Text("Neighbours")),
+        Text("engineer"),
+        Text("their condition before"),
     ),
     PlanItem(
-        "Service lines",
+        Text("Service lines"),
         ("29 CFR 1926.850(c) service lines", DGUV),
         (),
-        "owners of the lines",
-        "cut off or protected, date",
+        Text("owners of the lines"),
+        Text("cut off or protected, date"),
     ),
     PlanItem(
-        "Hazardous substances",
+        Text("Hazardous substances"),
         ("29 CFR 1926.850(e) hazardous substances", f"{BS_6187}, 10 Health hazards"),
         (),
-        "surveyor",
-        "findings, removal",
+        Text("surveyor"),
+        Text("findings, removal"),
     ),
     PlanItem(
-        "Traffic and the public",
+        Text("Traffic and the public"),
         (f"{MOP_157}, 1.5 Ensuring Public Safety", f"{BS_6187}, 12 Protection of people and the environment"),
-        ("Debris", "Plan"),
-        "authority",
-        "closures, times",
+        (Text("Debris"), Text("Plan")),
+        Text("authority"),
+        Text("closures, times"),
     ),
     PlanItem(
-        "Signals, guards and all clear",
+        Text("Signals, guards and all clear"),
         ("29 CFR 1926.909 firing the blast",),
         (),
-        "blaster",
-        "signals, names of guards",
+        Text("blaster"),
+        Text("signals, names of guards"),
         EXPLOSIVES,
     ),
     PlanItem(
-        "Inspection afterwards, and misfires",
+        Text("Inspection afterwards, and misfires"),
         ("29 CFR 1926.910 inspection after blasting", "29 CFR 1926.911 misfires"),
-        ("Stages",),
-        "blaster",
-        "waiting time, who inspects",
+        (Text("Stages"),),
+        Text("blaster"),
+        Text("waiting time, who inspects"),
         EXPLOSIVES,
     ),
     PlanItem(
-        "Emergencies",
+        Text("Emergencies"),
         (f"{BS_6187}, 11 Health and safety of people on or off site",),
         (),
-        "contractor",
-        "rescue, first aid, telephone numbers",
+        Text("contractor"),
+        Text("rescue, first aid, telephone numbers"),
     ),
-    PlanItem("Competence", (f"{BS_6187}, Annex A Training and competencies",), (), "contractor", "evidence"),
     PlanItem(
-        "Material, its masses and where it goes",
+        Text("Competence"), (f"{BS_6187}, Annex A Training and competencies",), (), Text("contractor"), Text("evidence")
+    ),
+    PlanItem(
+        Text("Material, its masses and where it goes"),
         (f"{BS_6187}, 18 Materials handling and processing",),
-        ("The run", "Reinforcement"),
-        "contractor",
-        "breaking up, transport, disposal",
+        (Text("The run"), Text("Reinforcement")),
+        Text("contractor"),
+        Text("breaking up, transport, disposal"),
     ),
-    PlanItem("Completion", (f"{BS_6187}, 20 Completion of the works",), (), "contractor", "hand-over of the site"),
     PlanItem(
-        "Assumptions, and limits of the calculation",
+        Text("Completion"),
+        (f"{BS_6187}, 20 Completion of the works",),
+        (),
+        Text("contractor"),
+        Text("hand-over of the site"),
+    ),
+    PlanItem(
+        Text("Assumptions, and limits of the calculation"),
         (f"{MOP_157}, 1.4 Engineering Analysis Considerations",),
-        ("What is modelled, and how far to trust it",),
-        "engineer",
-        "independent check: name, date",
+        (Text("What is modelled, and how far to trust it"),),
+        Text("engineer"),
+        Text("independent check: name, date"),
     ),
 )
 """What a demolition plan contains, in the order of a plan."""
 
 _COLUMNS = (
     Column("Item", "item"),
-    Column("Asked for in", "asked_for_in", cites=True),
+    Column("Asked for in", "asked_for_in"),
     Column("In this report", "in_this_report"),
     Column("To be filled in by", "to_be_filled_in_by"),
 )
@@ -259,7 +288,12 @@ def _says_something(section: Section) -> bool:
 
 def _section(titles: Sequence[str], telling: Container[str], scenario: Scenario | None) -> Section:
     rows = [
-        (item.name, "; ".join(item.sources), _answered(item, titles, telling), f"{item.by}: {item.left} {_BLANK}")
+        (
+            item.name,
+            "; ".join(item.sources),
+            _answered(item, titles, telling),
+            Text("{}: {} {}", item.by, item.left, _BLANK),
+        )
         for item in asked_items(scenario)
     ]
     table = DataTable("plan_contents", "Items of the plan", _COLUMNS, rows)
@@ -268,5 +302,9 @@ def _section(titles: Sequence[str], telling: Container[str], scenario: Scenario 
 
 def _answered(item: PlanItem, titles: Sequence[str], telling: Container[str]) -> str | None:
     """Return the numbers and titles of the sections that answer an item; None where there is none."""
-    there = [f"{titles.index(title) + 1} {title}" for title in item.sections if title in titles and title in telling]
-    return "; ".join(there) or None
+    there = [
+        Text("{} {}", titles.index(title) + 1, Text(title))
+        for title in item.sections
+        if title in titles and title in telling
+    ]
+    return joined("{}; {}", there) or None

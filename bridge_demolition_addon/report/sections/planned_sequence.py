@@ -5,23 +5,24 @@ from __future__ import annotations
 import math
 
 from ...model.scenario import Scenario
+from ...texts import Text
 from ..document.blocks import Column, DataTable, Paragraph, Section
 from ..wording.sequence import planned_steps
 
-TITLE = "Planned sequence"
+TITLE = Text("Planned sequence")
 
 
 def _known(time_s: float) -> float | None:
     return time_s if math.isfinite(time_s) else None
 
 
-_WORDS = (
+_WORDS = Text(
     "Times are on the clock of the run. What is planned not to happen, such as a charge that does not fire, and "
     "what lasts to the end has no time. Charges are at the times of their delays."
 )
 _COLUMNS = (
-    Column("from (s)", "from_s", ".3f", lambda step: _known(step.begins_s)),
-    Column("to (s)", "to_s", ".3f", lambda step: _known(step.ends_s)),
+    Column(Text("from", context="time"), "from_s", ".3f", lambda step: _known(step.begins_s)),
+    Column("to", "to_s", ".3f", lambda step: _known(step.ends_s)),
     Column("what", "what", "", lambda step: step.what),
     Column("where", "where", "", lambda step: step.where or None),
 )
@@ -38,4 +39,4 @@ def sequence_section(scenario: Scenario) -> Section:
 def _words(scenario: Scenario) -> str:
     first_s = scenario.detonation_s(0.0)
     fires = (scenario.blast_zones or scenario.cuts or scenario.charges) and math.isfinite(first_s)
-    return f"{_WORDS} The first possible detonation is at {first_s:.3f} s." if fires else _WORDS
+    return Text("{} The first possible detonation is at {} s.", _WORDS, f"{first_s:.3f}") if fires else _WORDS

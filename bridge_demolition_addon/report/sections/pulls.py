@@ -2,35 +2,36 @@
 
 from __future__ import annotations
 
+from ...texts import Text
 from ..document.blocks import Column, DataTable, Paragraph, Section
 from ..run_folder import ReportedRun
 
 _KILO = 1000.0
 
-_DANGER = (
-    "A cable that breaks whips back, and kills. Keep everybody off its line, and farther from both of its ends than it "
-    "is long, as long as it has force; protect the one who works the winch. What is pulled over may fall farther than "
-    "it is high. The cable is straight here, has no weight, and touches nothing."
+_DANGER = Text(
+    "A cable that breaks whips back, and kills. Keep everybody off its line, and farther from both of its ends "
+    "than it is long, as long as it has force; protect the one who works the winch. What is pulled over may fall "
+    "farther than it is high. The cable is straight here, has no weight, and touches nothing."
 )
 
 _COLUMNS = (
     Column("Cable", "cable", "", lambda pull: pull["name"]),
-    Column("largest force (kN)", "largest_kN", ".1f", lambda pull: pull["largest_force_N"] / _KILO),
-    Column("at (s)", "at_s", ".3f", lambda pull: pull["largest_force_s"]),
-    Column("paid out from (s)", "paid_out_s", ".3f", lambda pull: pull["paid_out_s"]),
-    Column("work (kJ)", "work_kJ", ".1f", lambda pull: pull["work_J"] / _KILO),
-    Column("ended", "ended", "", lambda pull: pull["ended"] or "held to the end"),
-    Column("then (s)", "ended_s", ".3f", lambda pull: pull["ended_s"]),
-    Column("let go (kJ)", "let_go_kJ", ".1f", lambda pull: _in_thousands(pull["let_go_J"])),
+    Column("largest force", "largest_kN", ".1f", lambda pull: pull["largest_force_N"] / _KILO),
+    Column("at", "at_s", ".3f", lambda pull: pull["largest_force_s"]),
+    Column("paid out from", "paid_out_s", ".3f", lambda pull: pull["paid_out_s"]),
+    Column("work", "work_kJ", ".1f", lambda pull: pull["work_J"] / _KILO),
+    Column("ended", "ended", "", lambda pull: Text(pull["ended"] or "held to the end")),
+    Column("then", "ended_s", ".3f", lambda pull: pull["ended_s"]),
+    Column(Text("let go", context="energy"), "let_go_kJ", ".1f", lambda pull: _in_thousands(pull["let_go_J"])),
 )
 
 _HOOKS = (
     Column("Lift", "lift", "", lambda lift: lift["name"]),
-    Column("weight (kN)", "weight_kN", ".1f", lambda lift: lift["weight_N"] / _KILO),
-    Column("by volume (kN)", "volume_weight_kN", ".1f", lambda lift: _in_thousands(lift.get("volume_weight_N"))),
-    Column("largest load on the hook (kN)", "largest_hook_kN", ".1f", lambda lift: lift["largest_hook_N"] / _KILO),
+    Column("weight", "weight_kN", ".1f", lambda lift: lift["weight_N"] / _KILO),
+    Column("by volume", "volume_weight_kN", ".1f", lambda lift: _in_thousands(lift.get("volume_weight_N"))),
+    Column("largest load on the hook", "largest_hook_kN", ".1f", lambda lift: lift["largest_hook_N"] / _KILO),
     Column("by its weight", "by_weight", ".2f", lambda lift: lift["largest_hook_N"] / lift["weight_N"]),
-    Column("at (s)", "at_s", ".3f", lambda lift: lift["largest_hook_s"]),
+    Column("at", "at_s", ".3f", lambda lift: lift["largest_hook_s"]),
 )
 
 

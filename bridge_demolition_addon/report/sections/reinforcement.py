@@ -20,6 +20,7 @@ from ...model.reinforcement.design import bar_schedule
 from ...model.reinforcement.schedule import Schedule, ScheduledBars, ScheduledLinks, named_text, steel_facts
 from ...model.scenario import BridgeReinforcement, Scenario
 from ...model.scenario.scenario import rules_of_bars
+from ...texts import Quantity, Text
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section, facts
 
 _HEIGHT_MM = 130.0
@@ -28,53 +29,60 @@ _COLUMNS = (
     Column("Members", "members"),
     Column("Bars", "side"),
     Column("along", "along"),
-    Column("from (m)", "from_m", ".1f"),
-    Column("to (m)", "to_m", ".1f"),
-    Column("below the side (mm)", "depth_mm", ".0f"),
-    Column("area (mm²)", "area_mm2", ".0f"),
-    Column("area of links (mm²/m)", "area_of_links_mm2_m", ".0f"),
+    Column("from", "from_m", ".1f"),
+    Column("to", "to_m", ".1f"),
+    Column("below the side", "depth_mm", ".0f"),
+    Column("area", "area_mm2", ".0f", unit="mm²"),
+    Column("area of links", "area_of_links_mm2_m", ".0f", unit="mm²/m"),
     Column("choice", "choice"),
-    Column("of the section (%)", "ratio_percent", ".2f"),
-    Column("used (%)", "used_percent", ".0f"),
+    Column("of the section", "ratio_percent", ".2f"),
+    Column("used", "used_percent", ".0f"),
     Column("for", "for"),
 )
 
-_NOTES = (
-    "Used: area that the design requires by the area of the bars. Bars run along the whole of a member, or between two "
-    "positions; laps, hooks and bars that detailing adds are not in it. Fatigue, widths of cracks, punching and "
-    "torsion are not designed for."
+_NOTES = Text(
+    "Used: area that the design requires by the area of the bars. Bars run along the whole of a member, or "
+    "between two positions; laps, hooks and bars that detailing adds are not in it. Fatigue, widths of cracks, "
+    "punching and torsion are not designed for."
 )
 
 
 def reinforcement_section(scenario: Scenario) -> Section | None:
     """Return the section; None where all members have bars by hand, are no concrete, or have none on purpose."""
     plain = plain_concrete_text(scenario)
-    blocks: list[Block] = [Paragraph(f"{plain[0].upper()}{plain[1:]}.", is_notice=True)] if plain else []
+    blocks: list[Block] = [Paragraph(Text("{}.", Text(plain).capital), is_notice=True)] if plain else []
     if rules_of_bars(scenario):
         try:
             members = prepared_members(scenario).members
             blocks += _schedule_blocks(scenario, members, bar_schedule(scenario, members))
         except (DemolitionError, OSError) as error:  # of the ground, whose file may be elsewhere by now
-            blocks.append(Paragraph(f"The schedule of bars cannot be made again: {text_of(error)}", is_notice=True))
+            blocks.append(
+                Paragraph(Text("The schedule of bars cannot be made again: {}", text_of(error)), is_notice=True)
+            )
     return Section("Reinforcement", tuple(blocks)) if blocks else None
 
 
 def _schedule_blocks(scenario: Scenario, members: Sequence[Member], schedule: Schedule) -> Iterator[Block]:
     for rule in rules_of_bars(scenario):
-        design = (
-            ""
-            if isinstance(rule, BridgeReinforcement) and not rule.is_designed
-            else f" Designed by EN 1992-1-1 with {PERMANENT_FACTOR:g} G + {VARIABLE_FACTOR:g} Q, "
-            f"γ_c = {CONCRETE_FACTOR:g}, γ_s = {STEEL_FACTOR:g}; elastic moments, traffic at its worst."
-        )
-        yield Paragraph(f"Bars by {rule.described}, of {rule.steel} with {1e3 * rule.cover_m:g} mm of cover.{design}")
+        bars = rule.described, rule.steel, Quantity(1e3 * rule.cover_m, "mm", "g")
+        if isinstance(rule, BridgeReinforcement) and not rule.is_designed:
+            yield Paragraph(Text("Bars by {}, of {} with {} of cover.", *bars))
+        else:
+            factors = (f"{each:g}" for each in (PERMANENT_FACTOR, VARIABLE_FACTOR, CONCRETE_FACTOR, STEEL_FACTOR))
+            designed = (
+                "Bars by {}, of {} with {} of cover. Designed by EN 1992-1-1 with {} G + {} Q, γ_c = {}, γ_s = "
+                "{}; elastic moments, traffic at its worst."
+            )
+            yield Paragraph(Text(designed, *bars, *factors))
     yield DataTable("reinforcement", "Schedule of bars", _COLUMNS, [_row(row) for row in schedule.rows])
     yield facts("Steel", list(steel_facts(members, schedule)))
     yield Paragraph(_NOTES)
     for note in schedule.notes:
-        yield Paragraph(f"{note[0].upper()}{note[1:]}.")
+        yield Paragraph(Text("{}.", Text(note).capital))
     if sections := sections_to_draw(members, schedule):
-        caption = "Sections square to the axis of members, bars as large as they are: red across, blue in the section."
+        caption = Text(
+            "Sections square to the axis of members, bars as large as they are: red across, blue in the section."
+        )
         yield Picture(partial(draw_sections, sections=sections, schedule=schedule), caption, _HEIGHT_MM)
 
 
@@ -83,10 +91,10 @@ def _row(row: ScheduledBars | ScheduledLinks) -> tuple[str | float | None, ...]:
     if isinstance(row, ScheduledBars):
         layer = row.layer
         depth = None if layer.depth_m is None else 1e3 * layer.depth_m
-        side = "spread" if layer.is_spread else layer.side
+        side = Text("spread" if layer.is_spread else layer.side)
         shown: tuple[str | float | None, ...] = (
             side,
-            layer.along,
+            Text(layer.along),
             layer.from_m,
             layer.to_m,
             depth,
@@ -94,5 +102,5 @@ def _row(row: ScheduledBars | ScheduledLinks) -> tuple[str | float | None, ...]:
             None,
         )
     else:
-        shown = "links", "", None, None, None, None, row.link_area_mm2_per_m
-    return named_text(row), *shown, row.bars_text, *numbers, row.reason
+        shown = Text("links"), "", None, None, None, None, row.link_area_mm2_per_m
+    return named_text(row), *shown, row.bars_text, *numbers, Text(row.reason)

@@ -13,6 +13,7 @@ from ...errors import OutputError, UnreadableError
 from ...model.lifts import Pick
 from ...model.stages.lifted import LIFT_COLUMNS, LIFTS_FILE
 from ...model.stages.misfires import MISFIRE_COLUMNS, MISFIRES_FILE
+from ...model.stages.stages import STEPS
 from ...model.stages.tables import (
     BEARING_COLUMNS,
     BEARINGS_FILE,
@@ -29,58 +30,58 @@ from ...model.structure.bearing_ranges import ONE_CUT
 from ...system.csv_tables import csv_rows
 from ...system.progress import Progress
 from ...system.reading import MEGABYTE
+from ...texts import Quantity, Text, joined, read
 from ...version import VERSION
 from ..document.blocks import Block, Column, DataTable, Document, Paragraph, Report, Section
-from ..names import MEMBER_KINDS
 from ..run_folder import shown_name
 from .plan_contents import with_plan_contents
 
 _MOST_BYTES = 10 * MEGABYTE
-_WORDS = (
+_WORDS = Text(
     "Worked out at rest, by the stiffness of the connections and without a simulation. Utilisation is of the "
-    "resistance in bending of sections with bars, or of what links carry between a girder and its slab, and elsewhere "
-    "of the strength of a face, which breaks above 100 %. Collapse load factor: times the weight of everything, "
-    "equipment included, at which the bridge begins to come down; below 1 the stage does not stand."
+    "resistance in bending of sections with bars, or of what links carry between a girder and its slab, and "
+    "elsewhere of the strength of a face, which breaks above 100 %. Collapse load factor: times the weight of "
+    "everything, equipment included, at which the bridge begins to come down; below 1 the stage does not stand."
 )
 _COLUMNS = (
     Column("Stage", "stage", "", lambda row: row["stage"]),
-    Column("From (s)", "time_s", ".2f", lambda row: _number(row["time_s"])),
-    Column("What was done", "step", "", lambda row: row["step"]),
-    Column("On it", "equipment", "", lambda row: row["equipment"] or None),
-    Column("Weight (kN)", "weight_kN", ".0f", lambda row: _number(row["weight_kN"])),
-    Column("Not supported (t)", "not_held_t", ".1f", significant=3, value=lambda row: float(row["not_held_kg"]) / 1e3),
+    Column("From", "time_s", ".2f", lambda row: _number(row["time_s"])),
+    Column("What was done", "step", "", lambda row: read(row["step"], STEPS)),
+    Column("On it", "equipment", "", lambda row: Text(row["equipment"]) if row["equipment"] else None),
+    Column("Weight", "weight_kN", ".0f", lambda row: _number(row["weight_kN"])),
+    Column("Not supported", "not_held_t", ".1f", significant=3, value=lambda row: float(row["not_held_kg"]) / 1e3),
     Column("Utilisation", "largest_utilisation", ".0%", lambda row: _number(row["largest_utilisation"])),
-    Column("by", "governed_by", "", lambda row: row["governed_by"] or None),
-    Column("in", "between", "", lambda row: row["between"] or None),
+    Column("by", "governed_by", "", lambda row: Text(row["governed_by"]) if row["governed_by"] else None),
+    Column("in", "between", "", lambda row: read(row["between"], ("{} and {}",)) if row["between"] else None),
     Column("Collapse load factor", "falls_at", "", lambda row: _falls_at(_number(row["collapse_factor"]))),
-    Column("Deflection (mm)", "sag_mm", ".1f", lambda row: _number(row["sag_mm"])),
+    Column("Deflection", "sag_mm", ".1f", lambda row: _number(row["sag_mm"])),
 )
 _HOOKS = (
-    Column("On hooks (kN)", "on_hooks_kN", ".1f", lambda row: _number(row["on_hooks_kN"])),
+    Column("On hooks", "on_hooks_kN", ".1f", lambda row: _number(row["on_hooks_kN"])),
     Column("of the crane", "hook_used", ".0%", lambda row: _number(row["hook_used"])),
 )
 """Columns where a crane lifts parts."""
 
 _SUPPORT = (
     Column("Support", "support", "", lambda rows: rows[0]["support"]),
-    Column("at x (m)", "at_x_m", ".2f", lambda rows: float(rows[0]["at_x_m"])),
-    Column("y (m)", "at_y_m", ".2f", lambda rows: float(rows[0]["at_y_m"])),
-    Column("z (m)", "at_z_m", ".2f", lambda rows: float(rows[0]["at_z_m"])),
+    Column("at x", "at_x_m", ".2f", lambda rows: float(rows[0]["at_x_m"])),
+    Column("y", "at_y_m", ".2f", lambda rows: float(rows[0]["at_y_m"])),
+    Column("z", "at_z_m", ".2f", lambda rows: float(rows[0]["at_z_m"])),
 )
-_REACTIONS = (
-    "Reactions of the supports: least and largest forces (kN) on the bridge over the stages, z upwards, without the "
-    "weight of what is held"
+_REACTIONS = Text(
+    "Reactions of the supports: least and largest forces (kN) on the bridge over the stages, z upwards, without "
+    "the weight of what is held"
 )
-_MOMENTS = "Reactions of the supports: least and largest moments (kN·m) about the point of the support"
+_MOMENTS = Text("Reactions of the supports: least and largest moments (kN·m) about the point of the support")
 _BEARING = (
     Column("Bearing", "bearing", "", lambda rows: rows[0]["bearing"]),
-    Column("at x (m)", "axis_x_m", ".2f", lambda rows: float(rows[0]["axis_x_m"])),
-    Column("y (m)", "axis_y_m", ".2f", lambda rows: float(rows[0]["axis_y_m"])),
-    Column("z (m)", "axis_z_m", ".2f", lambda rows: float(rows[0]["axis_z_m"])),
+    Column("at x", "axis_x_m", ".2f", lambda rows: float(rows[0]["axis_x_m"])),
+    Column("y", "axis_y_m", ".2f", lambda rows: float(rows[0]["axis_y_m"])),
+    Column("z", "axis_z_m", ".2f", lambda rows: float(rows[0]["axis_z_m"])),
 )
-_BEARINGS = (
-    "Bearings: least and largest forces (kN) on what lies above them over the stages, z upwards. They go on into the "
-    "supports, and are no part of their sum"
+_BEARINGS = Text(
+    "Bearings: least and largest forces (kN) on what lies above them over the stages, z upwards. They go on into "
+    "the supports, and are no part of their sum"
 )
 _SINCE_LATER = (
     "cracked",
@@ -96,22 +97,22 @@ _SINCE_LATER = (
 _CRITICALITY_AT_FIRST = 4
 """Columns of members that they did write."""
 
-_MISFIRES = (
-    "The bridge at rest after all changes but one blast zone: masses of what connections to supports held at first. "
-    "Bare bars of zones that fired carry up to what EN 1993-1-1, curve c, lets them resist, with their ends held "
-    "sideways. At most so much comes down where their load comes upon them at once, which presses them up to twice as "
-    "much, and where they hold nothing sideways and the bridge is inclined by 1/200. A bridge that stands on charges "
-    "that did not fire must not be approached."
+_MISFIRES = Text(
+    "The bridge at rest after all changes but one blast zone: masses of what connections to supports held at "
+    "first. Bare bars of zones that fired carry up to what EN 1993-1-1, curve c, lets them resist, with their "
+    "ends held sideways. At most so much comes down where their load comes upon them at once, which presses them "
+    "up to twice as much, and where they hold nothing sideways and the bridge is inclined by 1/200. A bridge that "
+    "stands on charges that did not fire must not be approached."
 )
 _MISFIRE = (
     Column("Fails", "fails", "", lambda row: row["fails"]),
-    Column("come down (t)", "falls_t", ".1f", significant=3, value=lambda row: float(row["falls_kg"]) / 1e3),
+    Column("come down", "falls_t", ".1f", significant=3, value=lambda row: float(row["falls_kg"]) / 1e3),
     Column("of what was held", "falls_share", ".0%", lambda row: float(row["falls_share"])),
-    Column("at most (t)", "falls_at_most_t", ".1f", significant=3, value=lambda row: _tonnes(row, "falls_at_most_kg")),
-    Column("stand (t)", "stands_t", ".1f", significant=3, value=lambda row: float(row["stands_kg"]) / 1e3),
+    Column("at most", "falls_at_most_t", ".1f", significant=3, value=lambda row: _tonnes(row, "falls_at_most_kg")),
+    Column("stand", "stands_t", ".1f", significant=3, value=lambda row: float(row["stands_kg"]) / 1e3),
     Column("Members that stand", "members_that_stand", "", lambda row: row["members_that_stand"] or None),
 )
-_OF_BEARINGS = "Bearings: least and largest moments (kN·m) about the middle of their axes"
+_OF_BEARINGS = Text("Bearings: least and largest moments (kN·m) about the middle of their axes")
 
 
 def has_stages(folder: Path) -> bool:
@@ -126,20 +127,9 @@ def _tonnes(row: dict[str, str], column: str) -> float | None:
 
 def stages_report(folder: Path, _target: Path, _progress: Progress) -> Report:
     """Return the report of stages alone."""
-    subtitle = f"Report of the stages of a demolition. Bridge Demolition Add-on {VERSION}"
+    subtitle = Text("Report of the stages of a demolition. Bridge Demolition Add-on {}", VERSION)
     document = Document(shown_name(folder), subtitle, (stages_section(folder),))
-    return Report(with_plan_contents(document, None), names=names_in_stages(folder) | {document.title})
-
-
-def names_in_stages(folder: Path) -> frozenset[str]:
-    """Return the names of members, supports, bearings and blast zones in the tables of stages: no language has them."""
-    of_tables = ((CRITICALITY_FILE, "member"), (REACTIONS_FILE, "support"), (BEARINGS_FILE, "bearing"))
-    tables = [(folder / file, column) for file, column in (*of_tables, (MISFIRES_FILE, "fails"))]
-    return frozenset(name for path, column in tables for name in _named_in(path, column)) - MEMBER_KINDS
-
-
-def _named_in(path: Path, column: str) -> set[str]:
-    return {row[column] for row in _rows(path, (column,), may_be_empty=True)} if path.is_file() else set()
+    return Report(with_plan_contents(document, None))
 
 
 def stages_section(folder: Path) -> Section:
@@ -166,7 +156,7 @@ def stages_section(folder: Path) -> Section:
     if critical := sorted((fall for fall in falls if fall[1] > 0.0), key=lambda fall: -fall[1]):
         columns = (
             Column("Without", "member"),
-            Column("come down (t)", "falls_t", ".1f", significant=3),
+            Column("come down", "falls_t", ".1f", significant=3),
             Column("of the bridge", "share_of_the_bridge", ".0%"),
         )
         blocks.append(DataTable("criticality", "Members that hold others", columns, critical))
@@ -177,11 +167,11 @@ def stages_section(folder: Path) -> Section:
 def _released(stages: Sequence[dict[str, str]]) -> list[Block]:
     """Return what tendons let go in each stage; nothing where none do."""
     energies = [(stage["stage"], _number(stage.get("tendons_released_kJ", "")) or 0.0) for stage in stages]
-    parts = [f"{energy:.1f} kJ in stage {stage}" for stage, energy in energies if energy > 0.0]
+    parts = [Text("{} in stage {}", Quantity(energy, "kJ", ".1f"), stage) for stage, energy in energies if energy > 0.0]
     if not parts:
         return []
-    text = "Tendons let go at once, and hurt people along their lines and at their anchorages: "
-    return [Paragraph(f"{text}{', '.join(parts)}.", is_notice=True)]
+    text = "Tendons let go at once, and hurt people along their lines and at their anchorages: {}."
+    return [Paragraph(Text(text, joined("{}, {}", parts)), is_notice=True)]
 
 
 def _picks(folder: Path) -> list[Block]:
@@ -193,7 +183,7 @@ def _picks(folder: Path) -> list[Block]:
         picks = [Pick(row["lift"], float(row["part_kg"]), float(row["volume_kg"])) for row in rows if known]
     except ValueError as error:
         raise _damaged(path, error) from error
-    return [Paragraph(f"{text}.", True) for text in dict.fromkeys(pick.warning for pick in picks) if text]
+    return [Paragraph(Text("{}.", text), True) for text in dict.fromkeys(pick.warning for pick in picks) if text]
 
 
 def _misfire_blocks(folder: Path) -> list[Block]:
@@ -257,7 +247,7 @@ def _damaged(path: Path, error: ValueError) -> OutputError:
 def _lifted(bearings: Sequence[Sequence[dict[str, str]]]) -> list[Block]:
     """Return a notice of the stages in which bearings have lifted off."""
     lifted = [row for rows in bearings for row in rows if abs(float(row["force_z_kN"])) <= UPLIFT_KN]
-    return [Paragraph(f"Stage {row['stage']}: {row['bearing']} has lifted off.", True) for row in lifted]
+    return [Paragraph(Text("Stage {}: {} has lifted off.", row["stage"], row["bearing"]), True) for row in lifted]
 
 
 def _uplift(supports: Sequence[Sequence[dict[str, str]]], kind: str) -> list[Block]:
@@ -265,8 +255,12 @@ def _uplift(supports: Sequence[Sequence[dict[str, str]]], kind: str) -> list[Blo
     lowest = [min(rows, key=lambda row: float(row["force_z_kN"])) for rows in supports]
     return [
         Paragraph(
-            f"Stage {row['stage']}: {row[kind]} is held down with {-float(row['force_z_kN']):.1f} kN against "
-            "uplift. Make sure that it can be.",
+            Text(
+                "Stage {}: {} is held down with {} against uplift. Make sure that it can be.",
+                row["stage"],
+                row[kind],
+                Quantity(-float(row["force_z_kN"]), "kN", ".1f"),
+            ),
             True,
         )
         for row in lowest
@@ -281,7 +275,7 @@ def _extremes(quantity: str, unit: str) -> tuple[Column, ...]:
         key = f"{quantity}_{axis}_{unit}"
         for name, choose in (("least", min), ("largest", max)):
             columns += [
-                Column(f"{name} {axis}", f"{name}_{key}", ".1f", partial(_extreme, key, choose, key)),
+                Column(Text(f"{name} {{}}", axis), f"{name}_{key}", ".1f", partial(_extreme, key, choose, key)),
                 Column("stage", f"{name}_{key}_in_stage", "", partial(_extreme, key, choose, "stage")),
             ]
     return tuple(columns)
@@ -296,7 +290,7 @@ def _extreme(key: str, choose: Callable[..., dict[str, str]], wanted: str, rows:
 def _falls_at(factor: float | None) -> str | None:
     if factor is None:
         return None
-    return "more than × 64" if math.isinf(factor) else f"× {factor:.2f}"
+    return Text("more than × 64") if math.isinf(factor) else Text("× {}", f"{factor:.2f}")
 
 
 def _warnings(stages: Sequence[dict[str, str]]) -> list[Block]:
@@ -304,23 +298,38 @@ def _warnings(stages: Sequence[dict[str, str]]) -> list[Block]:
     notices: list[Block] = []
     for row in stages:
         factor = _number(row["collapse_factor"])
-        where = f"Stage {row['stage']}, from {float(row['time_s']):g} s ({row['step']})"
+        where = row["stage"], f"{float(row['time_s']):g}", read(row["step"], STEPS)
         if factor is not None and factor < 1.0:
-            notices.append(Paragraph(f"{where} does not stand: it comes down at {factor:.2f} times its load.", True))
+            notices.append(
+                Paragraph(
+                    Text(
+                        "Stage {}, from {} s ({}) does not stand: it comes down at {} times its load.",
+                        *where,
+                        f"{factor:.2f}",
+                    ),
+                    True,
+                )
+            )
         elif factor is None and not _number(row["weight_kN"]):
-            notices.append(Paragraph(f"{where}: no connection to a support holds anything.", True))
+            notices.append(
+                Paragraph(Text("Stage {}, from {} s ({}): no connection to a support holds anything.", *where), True)
+            )
         if float(row["not_held_kg"]) > 0.0:
             mass = mass_text(float(row["not_held_kg"]), 1)
-            notices.append(Paragraph(f"{where}: {mass} are held by no connection to a support.", True))
+            notices.append(
+                Paragraph(
+                    Text("Stage {}, from {} s ({}): {} are held by no connection to a support.", *where, mass), True
+                )
+            )
     return notices
 
 
 def _on_members(falls: Sequence[tuple[str, float, float]]) -> str:
     if not any(falls_t for _, falls_t, _ in falls):
-        return "Each member was taken away by itself from the bridge as it was built: the others stand."
-    return (
-        "Each member was taken away by itself from the bridge as it was built. Without those below, others come down: "
-        "they must not be touched before what they hold."
+        return Text("Each member was taken away by itself from the bridge as it was built: the others stand.")
+    return Text(
+        "Each member was taken away by itself from the bridge as it was built. Without those below, others come "
+        "down: they must not be touched before what they hold."
     )
 
 

@@ -18,6 +18,7 @@ from ...model.results.moving import still_moving_note
 from ...model.scenario import Scenario
 from ...model.sequence.undisturbed import asleep_text
 from ...model.stages.stability import stability_texts
+from ...texts import Quantity, Text, joined
 from ..document.blocks import Block, Paragraph, Photo, Picture, facts
 from ..run_folder import ReportedRun
 from ..wording.clearance import Flyrock, clearance_rows
@@ -49,7 +50,7 @@ def run_summary(run: ReportedRun, debris: Debris | None, flyrock: Flyrock | str 
         distance_m = _distance_m(run.results)
         blocks.append(Paragraph(verdict_of(run, distance_m), is_notice=True))
         outcome = list(_outcome(run, distance_m))
-        got = distance_m, "that debris got in this one run"
+        got = distance_m, "{} that debris got in this one run"
     rows = [*_means(run.scenario), *outcome, *clearance_rows(run.scenario, flyrock, got), *_basis(run)]
     doubts = [Paragraph(text, is_notice=True) for text in _doubts(run)]
     return (*blocks, *_plan(rows), *missing, *doubts)
@@ -77,12 +78,14 @@ def _spans(run: ReportedRun) -> tuple[Span, ...]:
 def _end(run: ReportedRun) -> str:
     rest = run.rest
     if rest.first_motion_s is None:
-        return "nothing moved"
+        return Text("nothing moved")
     if rest.at_rest_s is None and not rest.moving_at_end:
-        return "not all rested for long enough before the end"
+        return Text("not all rested for long enough before the end")
     if rest.at_rest_s is None:
-        return f"{rest.moving_at_end} of {len(run.recorded.inventory.of_kind('shard'))} shards still moved at the end"
-    return f"all was at rest from {rest.at_rest_s:.1f} s on"
+        return Text(
+            "{} of {} shards still moved at the end", rest.moving_at_end, len(run.recorded.inventory.of_kind("shard"))
+        )
+    return Text("all was at rest from {} s on", f"{rest.at_rest_s:.1f}")
 
 
 def _distance_m(results: Results) -> float:
@@ -116,15 +119,18 @@ def _plan(rows: Sequence[tuple[str, str]]) -> Iterator[Block]:
 
 
 def _means(scenario: Scenario | None) -> list[tuple[str, str]]:
-    return [("Done to the bridge", means_text(scenario))] if scenario else []
+    return [(Text("Done to the bridge"), means_text(scenario))] if scenario else []
 
 
 def _outcome(run: ReportedRun, distance_m: float) -> Iterator[tuple[str, str]]:
     """Yield what came down and what stays."""
-    yield "Came down by", ", ".join(f"{span.name} {span.drop_m:.2f} m" for span in _spans(run))
+    yield (
+        Text("Came down by"),
+        joined("{}, {}", [Text("{} {}", span.name, Quantity(span.drop_m, "m", ".2f")) for span in _spans(run)]),
+    )
     is_final = run.ending.has_outcome and not run.still_moving
-    yield "Stays" if is_final else "Has not moved", _staying_text(run.recorded)
-    yield "Debris distance", run_limit(distance_m, still_moving_note(run.recorded))
+    yield Text("Stays") if is_final else Text("Has not moved"), _staying_text(run.recorded)
+    yield Text("Debris distance"), run_limit(distance_m, still_moving_note(run.recorded))
 
 
 def _staying_text(results: Results) -> str:
@@ -135,34 +141,41 @@ def _staying_text(results: Results) -> str:
     names = [str(name) for name in dict.fromkeys(members.tolist()) if name]
     staying = [name for name in names if not moved[members == name].any()]
     if not staying:
-        return f"no member without a shard that moved by more than {MOVED_M:g} m"
-    which = f"{len(staying)} of {len(names)} members"
-    which += f" ({', '.join(staying)})" if len(staying) <= _MOST_NAMED else ""
-    return f"{which}, of which no shard moved by more than {MOVED_M:g} m"
+        return Text("no member without a shard that moved by more than {}", Quantity(MOVED_M, "m", "g"))
+    which = Text("{} of {} members", len(staying), len(names))
+    if len(staying) <= _MOST_NAMED:
+        which = Text("{} ({})", which, joined("{}, {}", staying))
+    return Text("{}, of which no shard moved by more than {}", which, Quantity(MOVED_M, "m", "g"))
 
 
 def _basis(run: ReportedRun) -> Iterator[tuple[str, str]]:
     """Yield what all this rests on."""
-    seed = f", seed {run.scenario.seed}" if run.scenario else ""
     shards = len(run.recorded.inventory.of_kind("shard"))
-    yield "Rests on", f"one run{seed}, {shards} shards; another seed may throw farther; a study gives a limit"
+    if run.scenario:
+        with_seed = "one run, seed {}, {} shards; another seed may throw farther; a study gives a limit"
+        yield Text("Rests on"), Text(with_seed, run.scenario.seed, shards)
+    else:
+        without = "one run, {} shards; another seed may throw farther; a study gives a limit"
+        yield Text("Rests on"), Text(without, shards)
 
 
 def _doubts(run: ReportedRun) -> Iterator[str]:
     """Yield what to doubt of a run that has results."""
     results = run.recorded
     if len(results.frames) < 2:
-        yield "Only one frame was recorded: nothing has moved yet, and there are no forces."
+        yield Text("Only one frame was recorded: nothing has moved yet, and there are no forces.")
     stability = stability_texts(run.summary.values) if run.summary else ()
-    yield from (f"{text}." for text in stability)
+    yield from (Text("{}.", text) for text in stability)
     if not stability and run.scenario and (asleep := asleep_text(run.scenario)):  # of a run of an earlier version
-        yield f"{asleep}."
+        yield Text("{}.", asleep)
     if text := creep_text({"creeping": creep_summary(without_removed(results)[0])}):
-        yield f"{text}."
+        yield Text("{}.", text)
     if np.isnan(results.frames.loads.body_sums_n[1:]).any():
         yield (
-            "Forces are not known in every frame, as the compiled core or Blender's memory was not as expected or "
-            "recording began late: what needs them is empty."
+            Text(
+                "Forces are not known in every frame, as the compiled core or Blender's memory was not as "
+                "expected or recording began late: what needs them is empty."
+            )
         )
     if results.load_sampling.startswith("last sub-step"):
-        yield "Loads were read once a frame only: peaks and impulses of impacts are missed for the most part."
+        yield Text("Loads were read once a frame only: peaks and impulses of impacts are missed for the most part.")

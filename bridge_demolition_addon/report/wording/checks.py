@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from ...texts import Quantity, Text
+
 
 class Check(NamedTuple):
     """A quantity, what it is compared with, and the tolerance of the test."""
@@ -14,24 +16,40 @@ class Check(NamedTuple):
 
 
 CHECKS = (
-    Check("throw of a block launched in Blender", "v² sin 2α / g", "0.5 %"),
+    Check("throw of a block launched in Blender", Text("v² sin 2α / g"), "0.5 %"),
     Check(
-        "energy of a spinning block in free flight in Blender", "itself at the launch", "0.5 % of the height it falls"
+        "energy of a spinning block in free flight in Blender",
+        Text("itself at the launch"),
+        Text("0.5 % of the height it falls"),
     ),
     Check(
-        "energy of a block that swings on a point in Blender, a seventh of it rotation", "itself at the start", "2 %"
+        "energy of a block that swings on a point in Blender, a seventh of it rotation",
+        Text("itself at the start"),
+        "2 %",
     ),
     Check("energy lost by a block that lands and stays", "m·g·h", "1 %"),
-    Check("all works on a tower that is toppled and breaks, added up", "its kinetic energy", "2 % of the largest"),
-    Check("energy made as two overlapping blocks are thrown apart", "their kinetic energy", "5 %"),
-    Check("energy with which a body lands", "m g h", "1 %, on the safe side"),
-    Check("forces of connections at rest: hanging block, chain, cantilever", "statics", "1e-6"),
-    Check("forces on the bodies of a falling pile", "change of momentum", "1e-6 of the largest impulse"),
-    Check("load at which a deck comes down, by strength of material", "beam theory", "20 %; in 40 and 90 shards 15 %"),
-    Check("load at which a cantilever collapses, by statics", "beam theory", "15 %"),
-    Check("blast: peak, duration, impulse, arrival", "published tables and formulas", "their last digit"),
-    Check("velocity of the ground by touchdown", "the formula, worked out apart", "0.06 mm/s"),
-    Check("footprints, buffers, piles of boxes", "formulas of geometry", "1e-6 m², 0.2 % of circles, 1 % of volumes"),
-    Check("when a box enters a zone", "speed and distance", "1 ms"),
-    Check("degrees on earth", "tables of the ellipsoid", "1 mm"),
+    Check(
+        "all works on a tower that is toppled and breaks, added up",
+        Text("its kinetic energy"),
+        Text("2 % of the largest"),
+    ),
+    Check("energy made as two overlapping blocks are thrown apart", Text("their kinetic energy"), "5 %"),
+    Check("energy with which a body lands", "m g h", Text("1 %, on the safe side")),
+    Check("forces of connections at rest: hanging block, chain, cantilever", Text("statics"), "1e-6"),
+    Check("forces on the bodies of a falling pile", Text("change of momentum"), Text("1e-6 of the largest impulse")),
+    Check(
+        "load at which a deck comes down, by strength of material",
+        Text("beam theory"),
+        Text("20 %; in 40 and 90 shards 15 %"),
+    ),
+    Check("load at which a cantilever collapses, by statics", Text("beam theory"), "15 %"),
+    Check("blast: peak, duration, impulse, arrival", Text("published tables and formulas"), Text("their last digit")),
+    Check("velocity of the ground by touchdown", Text("the formula, worked out apart"), Quantity("0.06", "mm/s")),
+    Check(
+        "footprints, buffers, piles of boxes",
+        Text("formulas of geometry"),
+        Text("{}, 0.2 % of circles, 1 % of volumes", Quantity("1e-6", "m²")),
+    ),
+    Check("when a box enters a zone", Text("speed and distance"), "1 ms"),
+    Check("degrees on earth", Text("tables of the ellipsoid"), Quantity("1", "mm")),
 )

@@ -9,18 +9,19 @@ from ...model.scenario import Scenario
 from ...model.structure.charge_plan import ChargePlan, zone_name
 from ...model.structure.zone_fragments import NO_SAFETY_DISTANCE
 from ...model.study.fragments import FragmentLimits
+from ...texts import Text, distance_to_keep, joined
 
-FRAGMENTS, CORDON = "Fragments (flyrock)", "Cordon"
+FRAGMENTS, CORDON = Text("Fragments (flyrock)"), Text("Cordon")
 
 Distance = tuple[float, str]
-"""How far something gets, m, and what or by which rule."""
+"""How far something gets, m, and the pattern of a text with what or by which rule."""
 
 
 @dataclass(frozen=True, slots=True)
 class Flyrock:
     """How far fragments of all zones fly: sampled under their cover, and the largest by each rule without one, m."""
 
-    sampled: str
+    sampled: tuple[object, ...]  # the pattern of a text on those, and its values but for the last
     farthest_m: float  # 0 where nothing is sampled
     lundborg_m: float
     mckenzie_m: float
@@ -28,15 +29,19 @@ class Flyrock:
     @property
     def text(self) -> str:
         """Return all distances, with what they are worth."""
-        lundborg, mckenzie = _metres(self.lundborg_m), _metres(self.mckenzie_m)
-        rules = f"up to {lundborg} m by Lundborg and {mckenzie} m by McKenzie without a cover"
-        return f"{self.sampled}; {rules}: {NO_SAFETY_DISTANCE}"
+        rules = distance_to_keep(self.lundborg_m, ".0f"), distance_to_keep(self.mckenzie_m, ".0f")
+        without = Text("up to {} by Lundborg and {} by McKenzie without a cover: {}", *rules, NO_SAFETY_DISTANCE)
+        pattern, *values = self.sampled
+        return Text(str(pattern), *values, without)
 
     @property
     def distances(self) -> list[Distance]:
         """Return each distance that a cordon is held against."""
-        sampled = (self.farthest_m, "of the farthest sampled fragment")
-        return [(self.lundborg_m, "by Lundborg"), (self.mckenzie_m, "by McKenzie"), sampled]
+        return [
+            (self.lundborg_m, "{} by Lundborg"),
+            (self.mckenzie_m, "{} by McKenzie"),
+            (self.farthest_m, "{} of the farthest sampled fragment"),
+        ]
 
 
 def flyrock_of_plan(plan: ChargePlan) -> Flyrock | None:
@@ -47,8 +52,12 @@ def flyrock_of_plan(plan: ChargePlan) -> Flyrock | None:
     farthest, worst = max(flown, key=lambda pair: pair[0].sampled.largest_m)
     nearly_all_m = max(of.sampled.nearly_all_m for of, _ in flown)
     return Flyrock(
-        f"sampled under their cover up to {_metres(farthest.sampled.largest_m)} m ({zone_name(worst)}), 99.9 % of "
-        f"their mass within {_metres(nearly_all_m)} m",
+        (
+            "sampled under their cover up to {} ({}), 99.9 % of their mass within {}; {}",
+            distance_to_keep(farthest.sampled.largest_m, ".0f"),
+            zone_name(worst),
+            distance_to_keep(nearly_all_m, ".0f"),
+        ),
         farthest.sampled.largest_m,
         max(of.lundborg_m for of, _ in flown),
         max(of.mckenzie_m for of, _ in flown),
@@ -58,10 +67,13 @@ def flyrock_of_plan(plan: ChargePlan) -> Flyrock | None:
 def flyrock_of_runs(limits: FragmentLimits) -> Flyrock:
     """Return how far fragments fly by the limits of a study."""
     if not limits.are_known:
-        return Flyrock("sampled ones have no limit yet", 0.0, limits.lundborg_m, limits.mckenzie_m)
+        return Flyrock(("sampled ones have no limit yet; {}",), 0.0, limits.lundborg_m, limits.mckenzie_m)
     return Flyrock(
-        f"sampled under their cover up to {_metres(limits.largest_m)} m, 99.9 % of their mass within "
-        f"{_metres(limits.nearly_all_m)} m",
+        (
+            "sampled under their cover up to {}, 99.9 % of their mass within {}; {}",
+            distance_to_keep(limits.largest_m, ".0f"),
+            distance_to_keep(limits.nearly_all_m, ".0f"),
+        ),
         limits.largest_m,
         limits.lundborg_m,
         limits.mckenzie_m,
@@ -73,9 +85,9 @@ def fragment_rows(scenario: Scenario | None, flyrock: Flyrock | str | None) -> I
     if isinstance(flyrock, Flyrock):
         yield FRAGMENTS, flyrock.text
     elif flyrock:
-        yield FRAGMENTS, f"not known: {flyrock}"
+        yield FRAGMENTS, Text("not known: {}", flyrock)
     elif scenario is not None and (scenario.charges or scenario.cuts):
-        yield FRAGMENTS, "not known: those of bare and of cutting charges are not modelled"
+        yield FRAGMENTS, Text("not known: those of bare and of cutting charges are not modelled")
 
 
 def clearance_rows(
@@ -88,18 +100,24 @@ def clearance_rows(
         yield CORDON, cordon_text(scenario.exclusion.cordon_m, [*flown, *([debris] if debris else ())])
     elif flown:
         far_m, what = max(flown)
-        yield CORDON, f"none in the scenario; the largest distance of fragments is {_metres(far_m)} m {what}"
+        yield (
+            CORDON,
+            Text("none in the scenario; the largest distance of fragments is {}", _distance_text(far_m, what)),
+        )
 
 
 def cordon_text(cordon_m: float, distances: Sequence[Distance]) -> str:
     """Return how far a cordon is, and which distances, the largest first, are beyond it."""
     beyond = sorted((distance for distance in distances if distance[0] > cordon_m), reverse=True)
-    text = f"{cordon_m:g} m around the bridge's plan, by the scenario"
+    cordon = distance_to_keep(cordon_m, "g")
     if beyond:
-        return f"{text}: shorter than {' and '.join(f'{_metres(far_m)} m {what}' for far_m, what in beyond)}"
-    return f"{text}: not shorter than any of these distances" if distances else text
+        shorter = joined("{} and {}", [_distance_text(*each) for each in beyond])
+        return Text("{} around the bridge's plan, by the scenario: shorter than {}", cordon, shorter)
+    if distances:
+        return Text("{} around the bridge's plan, by the scenario: not shorter than any of these distances", cordon)
+    return Text("{} around the bridge's plan, by the scenario", cordon)
 
 
-def _metres(distance_m: float) -> str:
-    """Return a distance as the table of fragments has it."""
-    return f"{distance_m:.0f}"
+def _distance_text(distance_m: float, what: str) -> Text:
+    """Return a distance, as the table of fragments has it, and what it is."""
+    return Text(what, distance_to_keep(distance_m, ".0f"))

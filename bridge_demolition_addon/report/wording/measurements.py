@@ -10,6 +10,8 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
+from ...texts import joined
+
 TABLE = Path(__file__).with_suffix(".csv")
 
 
@@ -25,7 +27,7 @@ class Measured:
     @property
     def ratios_text(self) -> str | None:
         """Return the least and the largest ratio; None without any."""
-        return " to ".join(dict.fromkeys(f"{ratio:.2f}" for ratio in self.ratios)) or None
+        return joined("{} to {}", dict.fromkeys(f"{ratio:.2f}" for ratio in self.ratios)) or None
 
 
 @cache

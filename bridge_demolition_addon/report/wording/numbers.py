@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ...engineering.units import rounded_down, rounded_up
+from ...texts import Text, joined
 
 _MOST_NAMES = 6
 
@@ -12,16 +13,16 @@ _MOST_NAMES = 6
 def listed(names: Sequence[str]) -> str:
     """Return names in a sentence; of many only how many there are."""
     if len(names) > _MOST_NAMES:
-        return f"{len(names)} quantities"
-    return " and ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)
+        return Text("{} quantities", len(names))
+    return joined("{} and {}", [joined("{}, {}", names[:-1]), names[-1]] if len(names) > 1 else names)
 
 
 def ordinal(rank: int) -> str:
     """Return ``largest``, ``2nd largest`` and so on."""
     if rank == 1:
-        return "largest"
+        return Text("largest")
     ending = "th" if rank % 100 in (11, 12, 13) else {1: "st", 2: "nd", 3: "rd"}.get(rank % 10, "th")
-    return f"{rank}{ending} largest"
+    return Text(f"{{}}{ending} largest", rank)
 
 
 def percent(share: float) -> str:

@@ -4,37 +4,59 @@ from __future__ import annotations
 
 from ...model.schema import given
 from ...model.search.conclusions import FALLING, NEVER, Answer
+from ...texts import Text
 from .numbers import four_digits
 
 
 def search_sentences(answer: Answer) -> list[str]:
     """Return what a search states, in plain words."""
     search, settings = answer.search, answer.search.settings
-    unit = f" {search.unit}" if search.unit else ""
-    counted = f"{answer.successes} of {answer.runs} runs met all criteria: {answer.ended_as or 'the search goes on'}."
+    counted = Text(
+        "{} of {} runs met all criteria: {}.",
+        answer.successes,
+        answer.runs,
+        Text(answer.ended_as or "the search goes on"),
+    )
     if answer.value is None:
         return [counted, _advice(answer)]
-    sentences = [
+    sentences: list[str] = [
         counted,
-        f"{settings.key}: half of all runs meet them at {four_digits(given(answer.median))}{unit}, and "
-        f"{settings.probability:.4g} of all at {four_digits(answer.value)}{unit}, most likely.",
+        Text(
+            "{}: half of all runs meet them at {}, and {} of all at {}, most likely.",
+            settings.key,
+            search.amount(four_digits(given(answer.median))),
+            f"{settings.probability:.4g}",
+            search.amount(four_digits(answer.value)),
+        ),
     ]
-    where = "or more" if settings.success == "above" else "or less"
     if answer.is_known:
         sentences.append(
-            f"With {settings.confidence:.4g} confidence, {settings.probability:.4g} of all runs meet them at "
-            f"{four_digits(answer.limit)}{unit} {where}."
+            Text(
+                "With {} confidence, {} of all runs meet them at {}.",
+                f"{settings.confidence:.4g}",
+                f"{settings.probability:.4g}",
+                Text(
+                    "{} or more" if settings.success == "above" else "{} or less",
+                    search.amount(four_digits(answer.limit)),
+                ),
+            )
         )
         if not settings.lowest <= answer.limit <= settings.highest:
-            sentences.append("That is outside the range in which runs were made: it rests on the shape of the curve.")
+            sentences.append(
+                Text("That is outside the range in which runs were made: it rests on the shape of the curve.")
+            )
     else:
-        sentences.append("The runs set no limit yet: raise search.trials, and start the search again.")
+        sentences.append(Text("The runs set no limit yet: raise search.trials, and start the search again."))
     if key := _limiting_end(answer):
-        sentences.append(f"The median is at the end of the range or beyond it: move search.{key}.")
+        sentences.append(Text("The median is at the end of the range or beyond it: move search.{}.", key))
     _, low, high = answer.without_model
     sentences.append(
-        f"Without a model of how the probability rises, the median is {four_digits(low)} to {four_digits(high)}{unit} "
-        f"with {settings.confidence:.4g} probability."
+        Text(
+            "Without a model of how the probability rises, the median is {} to {} with {} probability.",
+            search.amount(four_digits(low), shown=False),
+            search.amount(four_digits(high)),
+            f"{settings.confidence:.4g}",
+        )
     )
     return sentences
 
@@ -53,6 +75,11 @@ def _limiting_end(answer: Answer) -> str | None:
 def _advice(answer: Answer) -> str:
     settings = answer.search.settings
     if answer.ended_as == FALLING:
-        return f'Try search.success = "{"below" if settings.success == "above" else "above"}".'
+        return Text('Try search.success = "{}".', "below" if settings.success == "above" else "above")
     key = "highest" if (answer.ended_as == NEVER) == (settings.success == "above") else "lowest"
-    return f"Runs went from {settings.lowest:g} to {settings.highest:g}: move search.{key}, or ask for something else."
+    return Text(
+        "Runs went from {} to {}: move search.{}, or ask for something else.",
+        f"{settings.lowest:g}",
+        f"{settings.highest:g}",
+        key,
+    )

@@ -6,8 +6,9 @@ import math
 from collections.abc import Iterator
 
 from ...engineering.units import mass_text
-from ...model.actions import PlannedAction, PlannedStep, counted, point_text
+from ...model.actions import PlannedAction, PlannedStep, counted
 from ...model.scenario import Equipment, Scenario
+from ...texts import Text, joined, point_text
 
 
 def planned_steps(scenario: Scenario) -> list[PlannedStep]:
@@ -19,7 +20,7 @@ def planned_steps(scenario: Scenario) -> list[PlannedStep]:
 
 def means_text(scenario: Scenario) -> str:
     """Return by which means the bridge is brought down, in a few words."""
-    return "; ".join(filter(None, _means(scenario))) or "nothing is done to the bridge"
+    return joined("{}; {}", filter(None, _means(scenario))) or Text("nothing is done to the bridge")
 
 
 def _means(scenario: Scenario) -> Iterator[str]:
@@ -31,5 +32,5 @@ def _means(scenario: Scenario) -> Iterator[str]:
 
 def _standing(machine: Equipment) -> PlannedStep:
     until_s = math.inf if machine.until_s is None else machine.until_s
-    what = f"{machine.name} of {mass_text(machine.mass_kg, 1)} stands on the bridge"
+    what = Text("{} of {} stands on the bridge", machine.name, mass_text(machine.mass_kg, 1))
     return PlannedStep(machine.from_s, until_s, what, point_text(machine.position_m))

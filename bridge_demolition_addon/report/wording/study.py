@@ -13,17 +13,18 @@ from ...model.study.conclusions import Conclusions, DebrisLimit, DoubtfulThrows,
 from ...model.study.file import Ensemble, Study
 from ...model.study.fragments import FragmentLimits
 from ...model.study.settings import StudySettings
+from ...texts import DOWN, Quantity, Text, distance_to_keep, joined
 from .clearance import CORDON, cordon_text, flyrock_of_runs
 from .numbers import listed, ordinal, percent, percent_down, percent_up
 
-_DOUBT = "All of these are known within a factor of 2: factor 2, no safety distance."
+_DOUBT = Text("All of these are known within a factor of 2: factor 2, no safety distance.")
 
 
 def input_names(ensemble: Ensemble) -> list[str]:
     """Return what varies, as a study names it: a key of all tables of a list only once."""
     zones = ensemble.scenario.blast_zones
-    misfires = ["which blast zones fire"] if any(zone.probability_fires < 1.0 for zone in zones) else []
-    return [*(vary.key for vary in ensemble.settings.vary), *misfires, "the seed of the fracture"]
+    misfires = [Text("which blast zones fire")] if any(zone.probability_fires < 1.0 for zone in zones) else []
+    return [*(vary.key for vary in ensemble.settings.vary), *misfires, Text("the seed of the fracture")]
 
 
 def study_sentences(study: Study, conclusions: Conclusions) -> Iterator[str]:
@@ -38,11 +39,13 @@ def study_sentences(study: Study, conclusions: Conclusions) -> Iterator[str]:
         yield single_moving_sentence(conclusions.single_moving, conclusions.reach.runs, fastest_m_s)
     if conclusions.reach.is_known:
         yield repeat_sentence(conclusions.reach)
-        yield f"{PILES_NOTE}; the buffer has to cover that."
+        yield Text("{}; the buffer has to cover that.", PILES_NOTE)
     if conclusions.doubtful is None:
         yield (
-            "Throws that nothing explains but energy of the solver were not counted, as these runs recorded none: "
-            'study.keep = "logs" does.'
+            Text(
+                "Throws that nothing explains but energy of the solver were not counted, as these runs recorded "
+                'none: study.keep = "logs" does.'
+            )
         )
     elif conclusions.doubtful.throws:
         yield doubtful_sentence(conclusions.doubtful)
@@ -56,50 +59,74 @@ def study_sentences(study: Study, conclusions: Conclusions) -> Iterator[str]:
 
 def fragments_sentence(limits: FragmentLimits, cordon_m: float | None) -> str:
     """Return how far fragments of blast zones fly, beside two rules and the cordon of the scenario, if any."""
-    rules = (
-        f"By Lundborg they fly up to {rounded_up(limits.lundborg_m, '1')} m, by McKenzie up to "
-        f"{rounded_up(limits.mckenzie_m, '1')} m, as if nothing covered the holes"
+    rules = Text(
+        "By Lundborg they fly up to {}, by McKenzie up to {}, as if nothing covered the holes",
+        distance_to_keep(rounded_up(limits.lundborg_m, "1")),
+        distance_to_keep(rounded_up(limits.mckenzie_m, "1")),
     )
     beside = rules
     if cordon_m is not None:
-        beside += f". {CORDON}: {cordon_text(cordon_m, flyrock_of_runs(limits).distances)}"
+        beside = Text("{}. {}: {}", rules, CORDON, cordon_text(cordon_m, flyrock_of_runs(limits).distances))
     if not limits.are_known:
-        return f"How far fragments that are smaller than shards fly has no limit yet. {beside}. {_DOUBT}"
+        return Text("How far fragments that are smaller than shards fly has no limit yet. {}. {}", beside, _DOUBT)
     half, most, nearly_all = (
-        f"{rounded_up(limit_m, '1')} m" for limit_m in (limits.half_m, limits.most_m, limits.nearly_all_m)
+        distance_to_keep(rounded_up(limit_m, "1")) for limit_m in (limits.half_m, limits.most_m, limits.nearly_all_m)
     )
-    return (
-        f"Fragments that are smaller than shards: with {percent(limits.confidence)} confidence for each, in at least "
-        f"{percent(limits.quantile)} of such runs 50 % of their mass stay within {half} of their blast zone, 99 % "
-        f"within {most} and 99.9 % within {nearly_all}. {beside}. {_DOUBT}"
+    return Text(
+        "Fragments that are smaller than shards: with {} confidence for each, in at least {} of such runs 50 % of "
+        "their mass stay within {} of their blast zone, 99 % within {} and 99.9 % within {}. {}. {}",
+        percent(limits.confidence),
+        percent(limits.quantile),
+        half,
+        most,
+        nearly_all,
+        beside,
+        _DOUBT,
     )
 
 
 def moving_sentence(moving: int, runs: int) -> str:
     """Return that distances of some runs are not final."""
-    return (
-        f"In {moving} of {runs} runs shards still moved at the end: their distances are not final, and a limit from "
-        "them may be too small. Give the scenario a longer time.duration_s."
+    return Text(
+        "In {} of {} runs shards still moved at the end: their distances are not final, and a limit from them may "
+        "be too small. Give the scenario a longer time.duration_s.",
+        moving,
+        runs,
     )
 
 
 def single_moving_sentence(moving: int, runs: int, fastest_m_s: float) -> str:
     """Return that some runs rested as a whole, but not each shard of them."""
-    return (
-        f"In {moving} of {runs} runs everything rested as a whole, while single shards still moved, at less than "
-        f"{fastest_m_s:g} m/s: these may lie a little farther in the end."
+    return Text(
+        "In {} of {} runs everything rested as a whole, while single shards still moved, at less than {}: these "
+        "may lie a little farther in the end.",
+        moving,
+        runs,
+        Quantity(fastest_m_s, "m/s", "g"),
     )
 
 
-def too_few_sentence(limit: DebrisLimit) -> str:
+def too_few_sentence(limit: DebrisLimit) -> Text:
     """Return how many runs a limit needs, where there are too few."""
-    first = least_runs(limit.quantile, limit.confidence)
-    other = f" (or {first} with study.rank = 1)" if first < limit.runs_needed else ""
-    return (
-        f"Too few runs for a limit yet: it needs {limit.runs_needed} runs{other}, has {limit.runs}. Only "
-        f"then do {percent(limit.quantile)} of all runs stay within the {ordinal(limit.rank)} debris distance, with "
-        f"{percent(limit.confidence)} confidence. Raise study.runs, and start the study again in the same folder: it "
-        "keeps all runs that are done."
+    first, share, confidence = least_runs(limit.quantile, limit.confidence), percent(limit.quantile), limit.confidence
+    asked = share, ordinal(limit.rank), percent(confidence)
+    if first < limit.runs_needed:
+        return Text(
+            "Too few runs for a limit yet: it needs {} runs (or {} with study.rank = 1), has {}. Only then do {} "
+            "of all runs stay within the {} debris distance, with {} confidence. Raise study.runs, and start the "
+            "study again in the same folder: it keeps all runs that are done.",
+            limit.runs_needed,
+            first,
+            limit.runs,
+            *asked,
+        )
+    return Text(
+        "Too few runs for a limit yet: it needs {} runs, has {}. Only then do {} of all runs stay within the {} "
+        "debris distance, with {} confidence. Raise study.runs, and start the study again in the same folder: it "
+        "keeps all runs that are done.",
+        limit.runs_needed,
+        limit.runs,
+        *asked,
     )
 
 
@@ -126,103 +153,167 @@ def limit_sentence(limit: DebrisLimit, inputs: Sequence[str], least_mass_kg: flo
     if not limit.has_enough_runs:
         return too_few_sentence(limit)
     if not limit.is_known:
-        return (
-            f"These runs set no limit: {limit.unfinished} of {limit.runs} did not finish. Their debris "
-            f"distance counts as unlimited, and the limit is the {ordinal(limit.rank)} distance. Find out why they "
-            "stopped, and run the study again without that."
+        return Text(
+            "These runs set no limit: {} of {} did not finish. Their debris distance counts as unlimited, and the "
+            "limit is the {} distance. Find out why they stopped, and run the study again without that.",
+            limit.unfinished,
+            limit.runs,
+            ordinal(limit.rank),
         )
-    debris = f"debris of {least_mass_kg:g} kg or more" if least_mass_kg > 0.0 else "debris"
-    most = f"all but {limit.exceedances}" if limit.exceedances else "all of them"
-    unfinished = f", {_unfinished(limit)}" if limit.unfinished else ""
-    added = "a buffer has to be added"
+    debris = Text("debris of {} or more", Quantity(least_mass_kg, "kg", "g")) if least_mass_kg > 0.0 else Text("debris")
+    most = Text("all but {}", limit.exceedances) if limit.exceedances else Text("all of them")
+    if limit.unfinished:
+        most = _unfinished(limit, most)
+    added = Text("a buffer has to be added")
     if buffer_m is not None:
-        added = f"the buffer of {buffer_m:g} m is added, {rounded_up(limit.limit_m + buffer_m, '0.1')} m in all"
-    limit_m, sampled = rounded_up(limit.limit_m, "0.1"), "was sampled" if len(inputs) == 1 else "were sampled"
-    return (
-        f"In {limit.runs} independent runs, in which {listed(inputs)} {sampled} from the distributions of this study, "
-        f"{debris} stayed within {limit_m} m of the bridge's plan in {most}{unfinished}. With "
-        f"{percent(limit.confidence)} confidence at least {percent(limit.quantile)} of such runs stay within it. This "
-        "says how the model scatters; it does not cover what the model leaves out, such as pieces smaller than a "
-        f"shard, for which {added}."
+        added = Text(
+            "the buffer of {} is added, {} in all",
+            distance_to_keep(buffer_m, "g"),
+            distance_to_keep(rounded_up(limit.limit_m + buffer_m, "0.1")),
+        )
+    stayed = listed(inputs), debris, distance_to_keep(rounded_up(limit.limit_m, "0.1")), most
+    within = (
+        Text(
+            "In {} independent runs, in which {} was sampled from the distributions of this study, {} stayed "
+            "within {} of the bridge's plan in {}.",
+            limit.runs,
+            *stayed,
+        )
+        if len(inputs) == 1
+        else Text(
+            "In {} independent runs, in which {} were sampled from the distributions of this study, {} stayed "
+            "within {} of the bridge's plan in {}.",
+            limit.runs,
+            *stayed,
+        )
     )
+    share = Text(
+        "With {} confidence at least {} of such runs stay within it.",
+        percent(limit.confidence),
+        percent(limit.quantile),
+    )
+    model = Text(
+        "This says how the model scatters; it does not cover what the model leaves out, such as pieces smaller "
+        "than a shard, for which {}.",
+        added,
+    )
+    return joined("{} {}", (within, share, model))
 
 
 def repeat_sentence(limit: DebrisLimit) -> str:
     """Return how much the limit itself scatters."""
     ends = []
     if math.isfinite(limit.repeat_above_m):
-        ends.append(f"above {rounded_down(limit.repeat_above_m, '0.1')} m")
+        ends.append(Text("above {}", Quantity(rounded_down(limit.repeat_above_m, "0.1"), "m", rounding=DOWN)))
     if math.isfinite(limit.repeat_below_m):
-        ends.append(f"not above {rounded_up(limit.repeat_below_m, '0.1')} m")
-    confidence = f"with {percent(limit.confidence)} confidence{' each' if len(ends) > 1 else ''}"
-    within = f"its limit would lie {' and '.join(ends)}, {confidence}; " if ends else ""
-    return (
-        f"If the study were made again with other runs, {within}in {percent_up(limit.repeat_exceedance)} of such "
-        "studies it would lie beyond every distance seen here."
+        ends.append(Text("not above {}", distance_to_keep(rounded_up(limit.repeat_below_m, "0.1"))))
+    beyond, within = percent_up(limit.repeat_exceedance), joined("{} and {}", ends)
+    if not ends:
+        return Text(
+            "If the study were made again with other runs, in {} of such studies it would lie beyond every "
+            "distance seen here.",
+            beyond,
+        )
+    if len(ends) == 1:
+        return Text(
+            "If the study were made again with other runs, its limit would lie {}, with {} confidence; in {} of "
+            "such studies it would lie beyond every distance seen here.",
+            within,
+            percent(limit.confidence),
+            beyond,
+        )
+    return Text(
+        "If the study were made again with other runs, its limit would lie {}, with {} confidence each; in {} of "
+        "such studies it would lie beyond every distance seen here.",
+        within,
+        percent(limit.confidence),
+        beyond,
     )
 
 
 def doubtful_sentence(doubtful: DoubtfulThrows) -> str:
     """Return how many throws are doubtful, and the limit without them."""
-    one, runs = doubtful.throws == 1, "run" if doubtful.judged == 1 else "runs"
-    limit = f" Without {'it' if one else 'them'} the limit is {rounded_up(doubtful.limit_m, '0.1')} m."
-    return (
-        f"{doubtful.throws} {'throw' if one else 'throws'} in {doubtful.runs} of {doubtful.judged} {runs} "
-        f"{'is' if one else 'are'} doubtful: neither the height of fall nor a ball explains {'it' if one else 'them'}, "
-        f"so the solver has made the energy.{limit if math.isfinite(doubtful.limit_m) else ''}"
+    counts = doubtful.throws, doubtful.runs, doubtful.judged
+    limit = distance_to_keep(rounded_up(doubtful.limit_m, "0.1")) if math.isfinite(doubtful.limit_m) else None
+    if doubtful.throws == 1:
+        text = Text(
+            "{} throw in {} of {} runs is doubtful: neither the height of fall nor a ball explains it, so the "
+            "solver has made the energy.",
+            *counts,
+        )
+        return text if limit is None else Text("{} Without it the limit is {}.", text, limit)
+    text = Text(
+        "{} throws in {} of {} runs are doubtful: neither the height of fall nor a ball explains them, so the "
+        "solver has made the energy.",
+        *counts,
     )
+    return text if limit is None else Text("{} Without them the limit is {}.", text, limit)
 
 
 def success_sentence(proportion: Proportion) -> str:
     """Return how often runs do something that is good."""
-    return (
-        f"{_counted(proportion)}. With {percent(proportion.confidence)} confidence at least "
-        f"{percent_down(proportion.at_least)} of such runs do."
+    return Text(
+        "{}. With {} confidence at least {} of such runs do.",
+        _counted(proportion),
+        percent(proportion.confidence),
+        percent_down(proportion.at_least),
     )
 
 
 def harm_sentence(proportion: Proportion) -> str:
     """Return how often runs do something that is bad."""
-    return (
-        f"{_counted(proportion)}. With {percent(proportion.confidence)} confidence at most "
-        f"{percent_up(proportion.at_most)} of such runs do."
+    return Text(
+        "{}. With {} confidence at most {} of such runs do.",
+        _counted(proportion),
+        percent(proportion.confidence),
+        percent_up(proportion.at_most),
     )
 
 
 def verified_sentence(left: Proportion, quantile: float) -> str:
     """Return what runs that left a zone, or did not, state about it; the zone was fixed before any of them."""
     if left.at_most <= 1.0 - quantile:
-        meaning = f"So it holds {percent(quantile)} of such runs"
-    else:
-        needed = [least_runs(quantile, left.confidence, rank) for rank in (1, 2)]
-        meaning = (
-            f"That does not show that it holds {percent(quantile)} of them: it takes {needed[0]} runs "
-            f"without one that leaves it, or {needed[1]} runs with one"
+        return Text(
+            "{} So it holds {} of such runs. This is so where the zone was fixed before these runs; if it was "
+            "made from a study, that study must have used another seed.",
+            harm_sentence(left),
+            percent(quantile),
         )
-    return (
-        f"{harm_sentence(left)} {meaning}. This is so where the zone was fixed before these runs; if it was made from "
-        "a study, that study must have used another seed."
+    needed = [least_runs(quantile, left.confidence, rank) for rank in (1, 2)]
+    return Text(
+        "{} That does not show that it holds {} of them: it takes {} runs without one that leaves it, or {} runs "
+        "with one. This is so where the zone was fixed before these runs; if it was made from a study, that study "
+        "must have used another seed.",
+        harm_sentence(left),
+        percent(quantile),
+        *needed,
     )
 
 
 def shape_sentence(corners: int, quantile: float, confidence: float) -> str:
     """Return why a zone drawn around runs holds less than it seems to, by the corners of the hull, and what to do."""
-    return (
-        "A zone drawn around the debris of these runs is no such limit: the runs chose its shape, whose convex hull "
-        f"has {corners} corners. Even with their number fixed beforehand, it takes "
-        f"{least_runs(quantile, confidence, corners)} runs until such a zone holds {percent(quantile)} of other runs, "
-        f"with {percent(confidence)} confidence. Take the limit instead, whose shape was fixed before the first run, "
-        "or verify the zone: write it into [[zones]] of the scenario, run the study with another seed, and then "
-        "bda study with --verify."
+    return Text(
+        "A zone drawn around the debris of these runs is no such limit: the runs chose its shape, whose convex "
+        "hull has {} corners. Even with their number fixed beforehand, it takes {} runs until such a zone holds "
+        "{} of other runs, with {} confidence. Take the limit instead, whose shape was fixed before the first "
+        "run, or verify the zone: write it into [[zones]] of the scenario, run the study with another seed, and "
+        "then bda study with --verify.",
+        corners,
+        least_runs(quantile, confidence, corners),
+        percent(quantile),
+        percent(confidence),
     )
 
 
-def _unfinished(limit: DebrisLimit) -> str:
+def _unfinished(limit: DebrisLimit, most: Text) -> Text:
     if limit.unfinished < limit.exceedances:
-        return f"{limit.unfinished} of which did not finish"
-    return "which did not finish" if limit.unfinished == 1 else "none of which finished"
+        return Text("{}, {}", most, Text("{} of which did not finish", limit.unfinished))
+    return Text("{}, which did not finish" if limit.unfinished == 1 else "{}, none of which finished", most)
 
 
 def _counted(proportion: Proportion) -> str:
-    counts = {0: f"None of {proportion.runs}", proportion.runs: f"All {proportion.runs}"}
-    return f"{counts.get(proportion.count, f'{proportion.count} of {proportion.runs}')} runs {proportion.what}"
+    if proportion.count == 0:
+        return Text("None of {} runs {}", proportion.runs, proportion.what)
+    if proportion.count == proportion.runs:
+        return Text("All {} runs {}", proportion.runs, proportion.what)
+    return Text("{} of {} runs {}", proportion.count, proportion.runs, proportion.what)

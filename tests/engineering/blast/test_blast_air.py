@@ -4,7 +4,7 @@
 import numpy as np
 import pytest
 
-from bridge_demolition_addon.engineering.blast.kingery_bulmash import Quantity, evaluate
+from bridge_demolition_addon.engineering.blast.kingery_bulmash import WaveQuantity, evaluate
 from bridge_demolition_addon.engineering.blast.wave import (
     AMBIENT_PRESSURE_PA,
     SOUND_SPEED_M_S,
@@ -34,5 +34,5 @@ def test_one_atmosphere_of_overpressure_by_hand():
 
 def test_fronts_of_kingery_and_bulmash_obey_it():
     # 1.1 % is how well the independent fits of pressure and velocity agree with each other.
-    speeds = shock_speed(evaluate(Quantity.PEAK_OVERPRESSURE, Z))
-    np.testing.assert_allclose(speeds, evaluate(Quantity.SHOCK_FRONT_VELOCITY, Z), rtol=0.011)
+    speeds = shock_speed(evaluate(WaveQuantity.PEAK_OVERPRESSURE, Z))
+    np.testing.assert_allclose(speeds, evaluate(WaveQuantity.SHOCK_FRONT_VELOCITY, Z), rtol=0.011)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from bridge_demolition_addon.engineering.blast import kinney_graham
-from bridge_demolition_addon.engineering.blast.kingery_bulmash import Quantity, evaluate
+from bridge_demolition_addon.engineering.blast.kingery_bulmash import WaveQuantity, evaluate
 from bridge_demolition_addon.engineering.blast.pulses import BlastModel, blast_wave
 from bridge_demolition_addon.engineering.blast.wave import SMALLEST_SCALED_DISTANCE, Burst, scaled_distance
 from bridge_demolition_addon.errors import BlastError
@@ -17,7 +17,7 @@ from bridge_demolition_addon.errors import BlastError
 WAVES = ("peak_overpressure_pa", "reflected_overpressure_pa", "incident_impulse_pa_s", "reflected_impulse_pa_s")
 WAVES += ("arrival_time_s", "positive_phase_duration_s")
 MODELS = [(model, burst) for model in BlastModel for burst in Burst]
-CURVES = [(quantity, burst) for quantity in Quantity for burst in Burst]
+CURVES = [(quantity, burst) for quantity in WaveQuantity for burst in Burst]
 
 
 def table_rows(burst):
@@ -91,20 +91,22 @@ def test_every_piece_of_the_tables_term_by_term(burst):
         for z in np.geomspace(float(row["z_min"]) * 1.0001, float(row["z_max"]) * 0.9999, 7):
             # Sums of up to 14 terms near 1, in another order: rounding, enlarged tenfold by the power.
             expected = units[row["unit"]] * by_hand(row, z)
-            assert evaluate(Quantity(row["quantity"]), z, burst) == pytest.approx(expected, rel=1e-12)
+            assert evaluate(WaveQuantity(row["quantity"]), z, burst) == pytest.approx(expected, rel=1e-12)
 
 
 @pytest.mark.parametrize("quantity, burst, z", JOINTS)
 def test_pieces_meet(quantity, burst, z):
     before, after = evaluate(quantity, np.array([z * (1 - 1e-9), z * (1 + 1e-9)]), burst)
     # Steps of the published fits; the largest two are impulse at 2.38 and duration at 1.02, both on the ground.
-    largest = {(Quantity.INCIDENT_IMPULSE, 2.38): 0.0241, (Quantity.DURATION, 1.02): 0.0120}.get((quantity, z), 0.0093)
+    largest = {(WaveQuantity.INCIDENT_IMPULSE, 2.38): 0.0241, (WaveQuantity.DURATION, 1.02): 0.0120}.get(
+        (quantity, z), 0.0093
+    )
     assert after == pytest.approx(before, rel=largest)
 
 
 def test_the_known_joints_of_the_free_air_duration():
     # Public copies of this table are corrupt there.
-    milliseconds = 1e3 * evaluate(Quantity.DURATION, np.array([0.888, 0.888001, 2.28, 2.280001]))
+    milliseconds = 1e3 * evaluate(WaveQuantity.DURATION, np.array([0.888, 0.888001, 2.28, 2.280001]))
     assert milliseconds == pytest.approx([1.636, 1.651, 2.147, 2.149], abs=5e-4)
 
 
@@ -122,9 +124,9 @@ def test_beyond_its_range_a_quantity_goes_on_as_sound_does(quantity, burst):
     farthest = ranges(quantity, burst)[-1][1]
     at_the_end, just_beyond, beyond = evaluate(quantity, farthest * np.array([1.0, 1.0 + 1e-9, 10.0]), burst)
     assert just_beyond == pytest.approx(at_the_end, rel=1e-8)
-    if quantity is Quantity.ARRIVAL_TIME:
+    if quantity is WaveQuantity.ARRIVAL_TIME:
         assert beyond - at_the_end == pytest.approx(9.0 * farthest / 340.29)
-    elif quantity in (Quantity.DURATION, Quantity.SHOCK_FRONT_VELOCITY):
+    elif quantity in (WaveQuantity.DURATION, WaveQuantity.SHOCK_FRONT_VELOCITY):
         assert beyond == at_the_end
     else:
         assert beyond == pytest.approx(at_the_end / 10.0)

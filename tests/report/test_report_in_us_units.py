@@ -11,13 +11,14 @@ import pytest
 from support.run_folders import TOLD, flying_shards, keep_run
 
 from bridge_demolition_addon.cli.progress import Silence
-from bridge_demolition_addon.engineering.unit_systems import IMPERIAL
+from bridge_demolition_addon.engineering.unit_systems import UnitSystem
 from bridge_demolition_addon.errors import OutputError
 from bridge_demolition_addon.model.scenario import Exclusion, ReportSettings
 from bridge_demolition_addon.report.document import page_style, pdf
-from bridge_demolition_addon.report.units.quantities import ReportUnits
+from bridge_demolition_addon.report.languages.translation import Translation
 from bridge_demolition_addon.report.wording.clearance import Flyrock, clearance_rows
 from bridge_demolition_addon.report.write import write_report
+from bridge_demolition_addon.texts import distance_to_keep
 
 pytestmark = pytest.mark.slow  # two whole reports with their drawings
 
@@ -137,11 +138,12 @@ def assert_no_less_in_feet(before, after):
 
 @pytest.mark.parametrize("largest_m", [77.0, 61.4, 118.0])
 def test_no_fragment_flies_less_far_than_in_metres(largest_m):
-    flyrock = Flyrock(f"sampled under their cover up to {largest_m:.0f} m (P3.1)", largest_m, 340.1, 200.1)
+    sampled = "sampled under their cover up to {}; {}", distance_to_keep(largest_m, ".0f")
+    flyrock = Flyrock(sampled, largest_m, 340.1, 200.1)
     rows = dict(clearance_rows(None, flyrock))
     assert set(rows) == {"Fragments (flyrock)", "Cordon"}
     for text in rows.values():
-        assert_no_less_in_feet(text, ReportUnits(IMPERIAL).text(text))
+        assert_no_less_in_feet(text, Translation.into("en", UnitSystem.IMPERIAL).text(text))
 
 
 @pytest.mark.long
