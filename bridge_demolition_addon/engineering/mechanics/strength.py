@@ -144,7 +144,7 @@ def resisting_records(sections: Sections, strength: Strength, second_moments: Fl
     return pack(
         RESISTING,
         area=sections.areas_m2,
-        second=second_moments,
+        second=np.broadcast_to(np.asarray(second_moments, float), (count, 3)),
         directions=sections.directions.reshape(-1, 4),
         moduli=sections.bending_moduli_m3,
         torsion_modulus=sections.torsion_moduli_m3,

@@ -167,7 +167,7 @@ def limit(runs: LevelOutcomes, probability: float, confidence: float, side: int)
     most = log_likelihood(runs, normal)
     freedom = len(runs) - 2
     # Half of twice the quantile of F, which has a closed form with 2 degrees of freedom.
-    least = most - 0.5 * freedom * ((1.0 - confidence) ** (-2.0 / freedom) - 1.0)
+    least = most - 0.5 * freedom * (float((1.0 - confidence) ** (-2.0 / freedom)) - 1.0)
 
     def above(position: float) -> float:
         return profile_likelihood(runs, position, probability) - least
