@@ -343,7 +343,7 @@ def _pieces_m(
     lengths = np.array([high - low for low, high in clear])
     rest = pieces - len(supports_m)
     if (lengths < shortest).any() or rest < _LEAST_IN_CLEAR * len(clear):
-        clear, lengths, rest = [(begin, end)], np.array([end - begin]), max(pieces, 1)
+        clear, lengths, rest = [[begin, end]], np.array([end - begin]), max(pieces, 1)
     places = []
     for (low, high), count in zip(clear, shards_per_member(lengths, rest).tolist(), strict=True):
         moved = 0.5 * draw.random(count - 1) - 0.25

@@ -139,7 +139,7 @@ class _CastTBeams:
 def _cast_t_beams(rows: ConnectionRows, cut: CutBridge) -> Iterator[_CastTBeams]:
     bridge = given(cut.scenario.bridge)
     girders, number_of = given(bridge.girders), {member.name: number for number, member in enumerate(cut.members)}
-    places = bridge.girder_spacing_m * (np.arange(girders.number) - 0.5 * (girders.number - 1))
+    places: FloatArray = bridge.girder_spacing_m * (np.arange(girders.number, dtype=float) - 0.5 * (girders.number - 1))
     edges = np.concatenate(([-np.inf], 0.5 * (places[1:] + places[:-1]), [np.inf]))
     half_m = 0.5 * bridge.deck.width_m
     for deck, webs in cast_decks(bridge):
