@@ -9,18 +9,19 @@ _KILO = 1000.0
 
 _COLUMNS = (
     Column("Load", "load", "", lambda load: load["name"]),
-    Column("largest force (kN)", "largest_kN", ".1f", lambda load: load["largest_force_N"] / _KILO),
-    Column("at (s)", "at_s", ".3f", lambda load: load["largest_force_s"]),
+    Column("largest force", "largest_kN", ".1f", lambda load: load["largest_force_N"] / _KILO),
+    Column("at", "at_s", ".3f", lambda load: load["largest_force_s"]),
     *(
         Column(
-            f"impulse along {axis} (kN·s)",
+            f"impulse along {axis}",
             f"impulse_{axis}_kNs",
             ".2f",
             lambda load, row=row: load["impulse_Ns"][row] / _KILO,
+            unit="kN·s",
         )
         for row, axis in enumerate("xyz")
     ),
-    Column("work (kJ)", "work_kJ", ".1f", lambda load: load["work_J"] / _KILO),
+    Column("work", "work_kJ", ".1f", lambda load: load["work_J"] / _KILO),
 )
 
 
