@@ -2,7 +2,6 @@
 """Reports from the folders of runs: complete in themselves, whole or cut short, one or several."""
 
 import csv
-import os
 import re
 import shutil
 import subprocess
@@ -30,7 +29,7 @@ from bridge_demolition_addon.errors import OutputError
 from bridge_demolition_addon.model.blast.charges import Charge
 from bridge_demolition_addon.model.debris.throws import debris_of
 from bridge_demolition_addon.model.debris.touchdown import landings, shaking_at
-from bridge_demolition_addon.model.results.arrays import FRAMES_FILE, RESULTS_FILE
+from bridge_demolition_addon.model.results.arrays import RESULTS_FILE
 from bridge_demolition_addon.model.run_folder.files import SUMMARY_FILE
 from bridge_demolition_addon.model.scenario import BallCable, BallHit, Load
 from bridge_demolition_addon.report.document.blocks import Paragraph
@@ -262,12 +261,9 @@ def test_a_folder_that_is_locked_by_the_report_of_a_killed_run_is_of_no_run_at_w
     killed = keep_run(tmp_path / "killed", flying_shards())
     (killed / RESULTS_FILE).unlink()
     stream_run(killed, flying_shards())
-    for path in (killed / FRAMES_FILE, killed):
-        os.utime(path, (0, 0))
     with FolderLock(killed):
         assert any("The run ended before its end" in text for text in read_run(killed).shortcomings)
-    with FolderLock(killed):
-        os.utime(killed / FRAMES_FILE)
+    with FolderLock(killed, work="a run"):
         assert any("The run is still at work (process " in text for text in read_run(killed).shortcomings)
 
 
