@@ -223,7 +223,7 @@ def _still_at_work(writer: str) -> str:
 
 def _reason(error: Exception, path: Path) -> str:
     """Return what an error says without the path at its beginning: a report is read elsewhere."""
-    return str(error).removeprefix(Text("{}: ", path))
+    return str(error).removeprefix(f"{path}: ")
 
 
 def _summary(folder: Path, shortcomings: list[str]) -> RunSummary | None:

@@ -16,7 +16,6 @@ from pymap3d import enu2geodetic
 from ..engineering.geometry.plan_areas import outlines, signed_area
 from ..model.scenario import Site
 from ..system.disk import write_whole_text
-from ..texts import Text
 
 _CLOSED = 1
 _MOST_LETTERS = 31
@@ -67,7 +66,7 @@ def write_dxf(
         lines += ["0", "LINE", "8", CONTOUR_LAYER]
         for number, position in enumerate(ends):
             for axis, value in enumerate(position, start=1):
-                lines += [Text("{}{}", axis, number), f"{value:.4f}"]
+                lines += [f"{axis}{number}", f"{value:.4f}"]
     if note:
         low_x, low_y, high_x, _ = np.array([area.bounds() for area in layers.values()]).reshape(-1, 4).T
         x, y, height = low_x.min(), low_y.min(), _NOTE_HEIGHT * (high_x.max() - low_x.min())
@@ -82,7 +81,7 @@ def _layer_names(names: Iterable[str]) -> list[str]:
     layers: list[str] = []
     for number, name in enumerate(names, start=1):
         layer = re.sub(r"[^A-Z0-9-]+", "_", name.upper()).strip("_")[:_MOST_LETTERS]
-        layers.append(Text("{}_{}", layer[: _MOST_LETTERS - 4], number) if layer in layers or not layer else layer)
+        layers.append(f"{layer[: _MOST_LETTERS - 4]}_{number}" if layer in layers or not layer else layer)
     return layers
 
 

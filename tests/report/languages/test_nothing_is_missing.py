@@ -19,7 +19,7 @@ from bridge_demolition_addon.report.languages.translated_report import NOTE, tra
 from bridge_demolition_addon.report.languages.translation import Translation
 from bridge_demolition_addon.texts import Text
 
-NAMES_WITH_UNITS = ("z = 2.45 m", "y = 0.00 m", "Chimney of 41 m", "house <5 kPa")
+NAMES_WITH_UNITS = ("z = 2.45 m", "y = 0.00 m", "41 m", "house <5 kPa")
 """Names of bodies, of cases of the validation, and of a criterion."""
 
 LANGUAGES = [name for name in language_names() if name != ENGLISH]
