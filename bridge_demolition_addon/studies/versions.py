@@ -7,6 +7,7 @@ from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
+from ..engineering.core.library import core_sources
 from ..errors import SimulationError
 
 _LIBRARIES = ("numpy", "manifold3d", "trimesh")
@@ -32,8 +33,8 @@ def versions_with(blender: str) -> dict[str, str]:
 
 @cache
 def _code() -> str:
-    """Digest of this package's own code, of which the same version may have many."""
-    digest = hashlib.sha256()
+    """Digest of this package's own code and of its compiled core, of which the same version may have many."""
+    digest = hashlib.sha256(core_sources().encode())
     for layer in _CALCULATING:
         for path in sorted((_PACKAGE / layer).rglob("*.py")):
             digest.update(path.relative_to(_PACKAGE).as_posix().encode() + b"\0")

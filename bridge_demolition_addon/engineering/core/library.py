@@ -46,6 +46,11 @@ def missing_core() -> CoreError | None:
     return None
 
 
+def core_sources() -> str:
+    """Return the digest of the files that the core was built from: another one may calculate otherwise."""
+    return _sources_of(library())
+
+
 @cache
 def function(name: str, *arguments: Any, returns: Any = ctypes.c_int) -> Callable[..., Any]:
     """Return a function of the core that takes arguments of these types of ctypes."""
