@@ -93,6 +93,7 @@ def test_every_key_with_a_unit_carries_it_in_its_name():
         "s": "_s",
         "kg": "_kg",
         "kg/m": "_kg_m",
+        "kg/m²": "_kg_m2",
         "kg/m³": "_kg_m3",
         "N": "_n",
         "kgf": "_kgf",
