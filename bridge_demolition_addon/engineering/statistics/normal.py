@@ -88,12 +88,12 @@ def log_probability(values: FloatArray) -> FloatArray:
 def _log_probability(value: float) -> float:
     """Far down by Mills' ratio (M. Abramowitz, I. A. Stegun, 1964, Handbook of Mathematical Functions, 26.2.12)."""
     if value > 0.0:
-        return math.log1p(-0.5 * math.erfc(value / math.sqrt(2.0)))
+        return float(logarithm(1.0 - 0.5 * math.erfc(value / math.sqrt(2.0))))
     if value > _FAR:
-        return math.log(0.5 * math.erfc(-value / math.sqrt(2.0)))
+        return float(logarithm(0.5 * math.erfc(-value / math.sqrt(2.0))))
     part = 1.0 / (value * value)
     series = -part * (1.0 - part * (3.0 - part * (15.0 - part * 105.0)))
-    return math.log1p(series) - math.log(-value * math.sqrt(2.0 * math.pi)) - 0.5 * value * value
+    return float(logarithm((1.0 + series) / (-value * math.sqrt(2.0 * math.pi)))) - 0.5 * value * value
 
 
 def _ratio(polynomials: tuple[Sequence[float], Sequence[float]], x: float) -> float:

@@ -304,7 +304,9 @@ def _stations_m(
             counts[max(others, key=lambda row: members[row].volume_m3)] += rest
         pieces = min(int(counts[rows[0]]) // len(girders), *counts[rows[1:]].tolist(), int(length / shortest))
         draw = np.random.default_rng([scenario.seed, rows[0]])
-        places = _pieces_m(begin, begin + length, _supports_m(members, rows[1], rows), pieces, shortest, draw)
+        # Rigid connections share no load by their stiffness, and are cut as they were in 2019.
+        supports = _supports_m(members, rows[1], rows) if scenario.connections.is_elastic else []
+        places = _pieces_m(begin, begin + length, supports, pieces, shortest, draw)
         found |= dict.fromkeys(rows, places)
     return found
 
