@@ -82,7 +82,8 @@ class MemberSections:
         area_m2 = (self._connected.areas_m2[near] * cosines).sum()
         # As bytes: numpy takes long to find what records have in common.
         self._known[row] = pack(CUT_THROUGH, face=near, sign=signs, cosine=cosines).view(np.uint8)
-        self._is_known[row], self._are_whole[row] = True, area_m2 >= WHOLE * self._thicknesses[row] * self._thicknesses[row]
+        thickness_m = self._thicknesses[row]
+        self._is_known[row], self._are_whole[row] = True, area_m2 >= WHOLE * thickness_m * thickness_m
 
 
 def kinds_of(members: IntArray) -> IntArray:
