@@ -28,6 +28,7 @@ TREE: dict[str, tuple[str, ...]] = {
     BRIDGE_ADVANCED: (
         *("BDA_PT_fracture", "BDA_PT_materials", "BDA_PT_reinforcement", "BDA_PT_tendons"),
         *("BDA_PT_connections", "BDA_PT_bearings", "BDA_PT_supports", "BDA_PT_foundations"),
+        "BDA_PT_dead_loads",
         *("BDA_PT_ground", "BDA_PT_shards", "BDA_PT_contacts"),
     ),
     "BDA_PT_geometry": ("BDA_PT_geometry_reinforcement",),
@@ -37,7 +38,7 @@ TREE: dict[str, tuple[str, ...]] = {
         DEMOLITION_ADVANCED,
     ),
     DEMOLITION_ADVANCED: (
-        *("BDA_PT_weakenings", "BDA_PT_tendon_cuts", "BDA_PT_loads"),
+        *("BDA_PT_weakenings", "BDA_PT_tendon_cuts", "BDA_PT_loads", "BDA_PT_pressures"),
         *("BDA_PT_equipment", "BDA_PT_ground_motion"),
     ),
     "BDA_PT_explosion": ("BDA_PT_blast",),
