@@ -6,7 +6,7 @@ import csv
 import numpy as np
 import pytest
 from pictures import seeds_chart
-from support.checkout import DEMOLITIONS, ROOT, SEEDED
+from support.checkout import DEMOLITIONS, ROOT, SEEDED, said_of
 from support.example_claims import beyond_claims
 
 MEASURED = sorted(seeds_chart.DATA.parent.glob("*.csv"))
@@ -55,7 +55,7 @@ def test_the_page_gives_the_ranges_that_were_measured(runs):
 
 @pytest.mark.parametrize("path", MEASURED, ids=lambda path: path.stem)
 def test_the_example_gives_the_ranges_that_were_measured(path):
-    runs, text = seeds_chart.read_throws(path), words(SEEDED[path.stem])
+    runs, text = seeds_chart.read_throws(path), said_of(SEEDED[path.stem])
     broken = runs["broken_connections"]
     claims = (
         f"Over {len(runs)} seeds 95 % of the shards stay within {spread(runs['throw_95_percent_m'])}",
@@ -78,14 +78,14 @@ def test_the_example_says_how_often_the_span_that_starts_awake_falls():
     runs = seeds_chart.read_throws(seeds_chart.DATA.with_stem("single_span_awake"))
     falls = (runs["span_1_median_fall_m"] > 4.0).sum()
     assert falls > 0.5 * len(runs)
-    assert f"With {falls} of {len(runs)} seeds the piers fail" in words(DEMOLITIONS["single_span_awake"])
+    assert f"With {falls} of {len(runs)} seeds the piers fail" in said_of(DEMOLITIONS["single_span_awake"])
     assert f"its own weight in {falls} of {len(runs)} seeds" in words(ROOT / "docs" / "accuracy.md")
 
 
 def test_the_example_says_how_often_a_span_between_charges_of_a_ton_is_falling():
     runs = seeds_chart.read_throws(seeds_chart.DATA.with_stem("two_spans_20m_delays"))
     falling = (np.maximum(runs["span_1_median_fall_m"], runs["span_2_median_fall_m"]) > 0.1).sum()
-    assert f"With {falling} of {len(runs)} seeds a span is falling" in words(DEMOLITIONS["two_spans_20m_delays"])
+    assert f"With {falling} of {len(runs)} seeds a span is falling" in said_of(DEMOLITIONS["two_spans_20m_delays"])
 
 
 def test_the_chart_shows_both_throws_of_every_run(runs):
@@ -99,7 +99,7 @@ def test_the_page_on_stages_says_how_often_what_stands_by_statics_comes_down():
     runs = seeds_chart.read_throws(seeds_chart.DATA.with_stem(name))
     down = (np.minimum(runs["span_1_share_fallen_2_m"], runs["span_2_share_fallen_2_m"]) > 0.5).sum()
     assert f"both spans come down with {down} of {len(runs)} seeds" in words(ROOT / "docs" / "stages.md")
-    assert f"over {len(runs)} seeds both spans come down in all" in words(SEEDED[name]) and down == len(runs)
+    assert f"over {len(runs)} seeds both spans come down in all" in said_of(SEEDED[name]) and down == len(runs)
     rest_s = runs["came_to_rest_s"][np.isfinite(runs["came_to_rest_s"])]
     said = f"{len(rest_s)} come to rest, {rest_s.min():.0f} to {rest_s.max():.0f} s after the start"
-    assert said in words(SEEDED[name])
+    assert said in said_of(SEEDED[name])

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Where the files of the checkout are."""
 
+import tomllib
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -31,3 +32,9 @@ I235_FILE = REPORT_2019 / "i235_one_span.toml"
 TESTS = ROOT / "tests"
 SMALL = TESTS / "gui" / "small.toml"
 """Scenario of a bridge so small that it is built in no time."""
+
+
+def said_of(example: Path) -> str:
+    """What the gallery says of an example, in one line."""
+    texts = tomllib.loads((ROOT / "scripts" / "gallery_texts.toml").read_text(encoding="utf-8"))
+    return " ".join(texts[example.relative_to(EXAMPLES).as_posix()]["text"].split())
