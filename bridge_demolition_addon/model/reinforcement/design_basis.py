@@ -13,7 +13,10 @@ from ...engineering.reinforced_concrete.least_areas import (
     LARGEST_SHARE,
     MOST_ROWS,
     BarChoice,
+    bar_area_m2,
     bars_in_rows,
+    column_link_bar_m,
+    column_link_spacing_m,
     diameters_from,
     of_beam_m2,
     of_links_m2_m,
@@ -313,3 +316,31 @@ class DesignBasis(BarDesign):
 
     def of_kind(self, kind: str) -> list[Member]:
         return [member for member in self.members if member.kind == kind]
+
+
+def column_loads(axial_n: float, moment_nm: float) -> Text:
+    """Return the design loads of a column or wall in words, the reason of its bars."""
+    axial, moment = Quantity(axial_n / _KILO, "kN", ".0f"), Quantity(moment_nm / _KILO, "kN·m", ".0f")
+    return Text("{} = {}, {} = {}", "N_Ed", axial, "M_Ed", moment)
+
+
+def column_links(
+    names: Sequence[str], bar_m: float, *, side_m: float, legs: int, width_m: float, loop_m: float, length_m: float
+) -> ScheduledLinks:
+    """Return the links of equal columns with bars of a diameter; `side_m` is their smallest side or their diameter."""
+    diameter = max(COLUMN_LINK_M, column_link_bar_m(bar_m))
+    spacing = np.floor(100.0 * column_link_spacing_m(bar_m, side_m) + 1e-9) / 100.0
+    area = float(legs * bar_area_m2(diameter) / spacing) * _MM2
+    return ScheduledLinks(
+        members=tuple(names),
+        kind="pier",
+        link_area_mm2_per_m=area,
+        required_mm2_per_m=area,
+        reason=LEAST,
+        legs=legs,
+        diameter_m=diameter,
+        spacing_m=float(spacing),
+        width_m=width_m,
+        loop_m=loop_m,
+        length_m=length_m,
+    )

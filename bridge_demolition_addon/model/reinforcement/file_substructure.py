@@ -11,10 +11,9 @@ from ...engineering.reinforced_concrete.columns import ColumnSection, design_mom
 from ...engineering.reinforced_concrete.influence_lines import MovingLoad, extreme_effects, influence_lines
 from ...engineering.reinforced_concrete.least_areas import LARGEST_SHARE, level_of_wall_m2, upright_of_wall_m2
 from ...engineering.reinforced_concrete.materials import PERMANENT_FACTOR, VARIABLE_FACTOR
-from ...texts import Quantity, Text
 from ..bridge.own_axes import own_axes
 from .beam_effects import beam_effects
-from .design_basis import LEAST
+from .design_basis import LEAST, column_loads
 from .file_decks import FileDeckLine, beam_rows
 from .file_members import LEAST_RATIO, FileDesign, LyingSection, Rows, in_own_axes, spread_rows
 from .load_paths import carriers_of, spans
@@ -146,16 +145,7 @@ def _wall(basis: FileDesign, index: int, load: CarriedLoad) -> Rows:
             needed = LARGEST_SHARE * section_m2
             basis.note(member.name, f"does not carry an axial force of {axial / 1e3:.0f} kN with any bars")
         if needed > upright:
-            upright, reason = (
-                needed,
-                Text(
-                    "{} = {}, {} = {}",
-                    "N_Ed",
-                    Quantity(axial / 1e3, "kN", ".0f"),
-                    "M_Ed",
-                    Quantity(moment / 1e3, "kN·m", ".0f"),
-                ),
-            )
+            upright, reason = needed, column_loads(axial, moment)
     level = level_of_wall_m2(upright / section_m2 * thickness, thickness) / thickness
     yield from spread_rows(design, member, {"z": upright / section_m2}, reason)
     yield from spread_rows(design, member, {"x": level, "y": level})

@@ -14,15 +14,13 @@ from ...engineering.reinforced_concrete.least_areas import (
     BarChoice,
     bar_area_m2,
     clear_m,
-    column_link_bar_m,
-    column_link_spacing_m,
     diameters_from,
     of_column_m2,
 )
-from .design_basis import COLUMN_LINK_M, BarDesign, Tension
+from .design_basis import COLUMN_LINK_M, LEAST, BarDesign, Tension, column_links, column_loads
 from .schedule import ScheduledBars, ScheduledLinks
 
-_KILO, _MM2 = 1e3, 1e6
+_KILO = 1e3
 
 _SIDES = ("start", "end", "right", "left")
 _FEWEST = 8
@@ -48,7 +46,8 @@ def round_column_bars(
     found = Tension(choice, depth, 0.25 * required, reason)
     for side in _SIDES:
         yield basis.scheduled(names, "pier", side, "z", found, section_m2=_area_m2(diameter_m), length_m=height_m)
-    yield _hoops(basis, names, diameter_m, height_m, bar)
+    loop_m = math.pi * (diameter_m - 2.0 * basis.rule.cover_m)
+    yield column_links(names, bar, side_m=diameter_m, legs=2, width_m=diameter_m, loop_m=loop_m, length_m=height_m)
 
 
 def _area_m2(diameter_m: float) -> float:
@@ -82,33 +81,13 @@ def _ring(
         section = ColumnSection(side, side, 0.5 * side - radius / math.sqrt(2.0), basis.concrete, basis.design_yield_pa)
         moment = design_moment_nm(axial_n, section, buckling_m)
         needed = section.bars_m2(axial_n, moment)
-        loads = f"N_Ed = {axial_n / _KILO:.0f} kN, M_Ed = {moment / _KILO:.0f} kN·m"
         if not np.isfinite(needed) or needed > LARGEST_SHARE * area:
             raise basis.refused(
                 f"{name} cannot carry its design load of {axial_n / _KILO:.0f} kN with {moment / _KILO:.0f} kN·m: it "
                 f"would need more than {LARGEST_SHARE:.0%} of its section of {diameter_m:g} m diameter in bars; take "
                 "thicker or more columns"
             )
-        required, reason = (needed, loads) if needed > least else (least, "least area")
+        required, reason = (needed, column_loads(axial_n, moment)) if needed > least else (least, LEAST)
         if required <= math.tau * radius / (bar + clear_m(bar)) * bar_area_m2(bar):
             return bar, required, reason
     raise basis.refused(f"{name} needs more bars than fit around it; take thicker or more columns")
-
-
-def _hoops(basis: BarDesign, names: Sequence[str], diameter_m: float, height_m: float, bar_m: float) -> ScheduledLinks:
-    hoop = max(COLUMN_LINK_M, column_link_bar_m(bar_m))
-    spacing = np.floor(100.0 * column_link_spacing_m(bar_m, diameter_m) + 1e-9) / 100.0
-    area = float(2.0 * bar_area_m2(hoop) / spacing) * _MM2
-    return ScheduledLinks(
-        members=tuple(names),
-        kind="pier",
-        link_area_mm2_per_m=area,
-        required_mm2_per_m=area,
-        reason="least area",
-        legs=2,
-        diameter_m=hoop,
-        spacing_m=float(spacing),
-        width_m=diameter_m,
-        loop_m=math.pi * (diameter_m - 2.0 * basis.rule.cover_m),
-        length_m=height_m,
-    )

@@ -15,20 +15,17 @@ from ...engineering.reinforced_concrete.least_areas import (
     bar_area_m2,
     bars_in_rows,
     clear_m,
-    column_link_bar_m,
-    column_link_spacing_m,
     diameters_from,
     level_of_wall_m2,
     of_column_m2,
     upright_of_wall_m2,
 )
 from ...engineering.reinforced_concrete.materials import PERMANENT_FACTOR, VARIABLE_FACTOR
-from ...texts import Quantity, Text
 from ..bridge.member import Member
 from ..scenario.bridge_parts import PierCaps, Piers
 from ..schema import given
 from .beam_effects import BeamEffects, beam_effects
-from .design_basis import COLUMN_LINK_M, BarDesign, DesignBasis, Tension
+from .design_basis import COLUMN_LINK_M, BarDesign, DesignBasis, Tension, column_links, column_loads
 from .round_columns import round_column_bars
 from .schedule import ScheduledBars, ScheduledLinks
 from .superstructure import DeckLine, deck_weight_n_m, whole_traffic
@@ -237,13 +234,7 @@ def _bars_of_column(
                     f"it would need more than {LARGEST_SHARE:.0%} of its section of {length:g} × {width:g} m in bars; "
                     "take thicker or more columns"
                 )
-            text = Text(
-                "{} = {}, {} = {}",
-                "N_Ed",
-                Quantity(axial_n / _KILO, "kN", ".0f"),
-                "M_Ed",
-                Quantity(moment / _KILO, "kN·m", ".0f"),
-            )
+            text = column_loads(axial_n, moment)
             pairs.append((needed, text) if needed > least * share else (least * share, "least area"))
             per_side = 0.5 * pairs[-1][0]
             most = (1 + int(max(room - diameter, 0.0) / (diameter + clear_m(diameter)))) * bar_area_m2(diameter)
@@ -255,22 +246,10 @@ def _bars_of_column(
 
 def _column_links(basis: BarDesign, names: Sequence[str], size: ColumnSize, bar_m: float) -> ScheduledLinks:
     length, width, cover = size.length_m, size.width_m, basis.rule.cover_m
-    diameter = max(COLUMN_LINK_M, column_link_bar_m(bar_m))
-    spacing = np.floor(100.0 * column_link_spacing_m(bar_m, min(length, width)) + 1e-9) / 100.0
     legs = 2 + max(int(np.ceil((width - 2.0 * cover) / _LEGS_APART_M)) - 1, 0)
-    area = float(legs * bar_area_m2(diameter) / spacing) * _MM2
-    return ScheduledLinks(
-        members=tuple(names),
-        kind="pier",
-        link_area_mm2_per_m=area,
-        required_mm2_per_m=area,
-        reason="least area",
-        legs=legs,
-        diameter_m=diameter,
-        spacing_m=float(spacing),
-        width_m=width,
-        loop_m=legs * (length - 2.0 * cover) + 2.0 * (width - 2.0 * cover),
-        length_m=size.height_m,
+    loop_m = legs * (length - 2.0 * cover) + 2.0 * (width - 2.0 * cover)
+    return column_links(
+        names, bar_m, side_m=min(length, width), legs=legs, width_m=width, loop_m=loop_m, length_m=size.height_m
     )
 
 
@@ -292,16 +271,7 @@ def _wall(basis: DesignBasis, member: Member, length_m: float, width_m: float, k
                 "a larger bridge.piers.column_length_m"
             )
         if needed > upright:
-            upright, reason = (
-                needed,
-                Text(
-                    "{} = {}, {} = {}",
-                    "N_Ed",
-                    Quantity(axial_n / _KILO, "kN", ".0f"),
-                    "M_Ed",
-                    Quantity(moment / _KILO, "kN·m", ".0f"),
-                ),
-            )
+            upright, reason = needed, column_loads(axial_n, moment)
     level = level_of_wall_m2(upright / width_m, length_m) * height
     inside = outside + basis.secondary_m
     of_upright = basis.least_bars(member.name, length_m, width_m, 0.5 * upright, inside, reason)

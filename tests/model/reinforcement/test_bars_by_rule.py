@@ -33,6 +33,7 @@ from bridge_demolition_addon.model.sequence.checked_model import checked_model
 from bridge_demolition_addon.model.structure.facts import connection_facts
 from bridge_demolition_addon.model.structure.member_layers import layers_of_members
 from bridge_demolition_addon.model.structure.model import build_model
+from bridge_demolition_addon.texts import Quantity
 
 pytestmark = pytest.mark.slow
 
@@ -284,6 +285,7 @@ def test_a_slender_round_column_has_bars_as_a_fibre_section_needs():
     schedule = scheduled(bridge(piers=replace(ROUND, columns=1, column_length_m=0.6, column_width_m=0.6, height_m=11)))
     (row,) = layer(schedule, "pier 1", "start", "z")
     axial, moment = (1e3 * float(number) for number in re.findall(r"= (\d+) kN", row.reason))
+    assert [value.unit for value in row.reason.values if isinstance(value, Quantity)] == ["kN", "kN·m"]  # for reports
     radius = 0.3 - BridgeReinforcement(designed_for="LM1").cover_m - 0.010 - row.choice.diameter_m / 2
     number = max(8, 4 * row.choice.number)
     place = radius * np.cos(2 * math.pi / number * (np.arange(number) + 0.5))
