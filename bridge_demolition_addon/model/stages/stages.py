@@ -203,7 +203,7 @@ def equipment_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
     for machine in scenario.equipment:
         where = ", ".join(f"{coordinate:g}" for coordinate in machine.position_m)
         yield machine.name, f"{machine.mass_kg / 1000.0:g} t at ({where}) m"
-        beside = sum(highest_under(point, boxes, none) is None for point in _grid(machine))
+        beside = int((highest_under(_grid(machine), boxes, none) < 0).sum())
         if beside:
             yield "", f"{beside / _GRID**2:.0%} of what it stands on is beside the bridge: move it"
         if machine.mass_kg < _LEAST_MACHINE_KG:
@@ -246,18 +246,14 @@ def standing_loads(
 
     The same weight stands at each point.
     """
-    loads, beside = np.zeros((6, len(model.shards))), []
-    boxes = np.array([shard.bounds for shard in model.shards])
-    for point in points:
-        shard = highest_under(point, boxes, removed)
-        if shard is None:
-            beside.append(point)
-            continue
-        arm_x, arm_y = point - model.centres_m[shard, :2]
-        loads[2, shard] -= weight_n
-        loads[3, shard] -= arm_y * weight_n
-        loads[4, shard] += arm_x * weight_n
-    return loads, np.array(beside).reshape(-1, 2)
+    loads, boxes = np.zeros((6, len(model.shards))), np.array([shard.bounds for shard in model.shards])
+    shards = highest_under(points, boxes, removed)
+    carried = shards >= 0
+    rows = shards[carried]
+    arms = points[carried] - model.centres_m[rows, :2]
+    for part, values in ((2, np.ones(len(rows))), (3, arms[:, 1]), (4, -arms[:, 0])):
+        np.subtract.at(loads[part], rows, values * weight_n)
+    return loads, points[~carried]
 
 
 def _grid(equipment: Equipment) -> np.ndarray:

@@ -21,6 +21,7 @@ _AT_THE_TOP = 0.05
 """Of the depth of the bridge there, m: shards whose top is that close to the highest one carry what stands on it."""
 
 _ROUNDING_M = 1e-6
+_POINTS_AT_ONCE = 256
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -68,16 +69,21 @@ def _on_member(load: DeadLoad, member: Member) -> tuple[np.ndarray, np.ndarray]:
     return member.with_skew(upright)[:, :2], np.full(len(points), mass_kg / len(points))
 
 
-def highest_under(point: np.ndarray, boxes: np.ndarray, removed: np.ndarray) -> int | None:
-    """Return the shard whose box (2, 3) is under a point (2,) and highest; of several the nearest on plan."""
-    over = (boxes[:, 0, :2] <= point).all(axis=1) & (point <= boxes[:, 1, :2]).all(axis=1) & ~removed
-    rows = np.flatnonzero(over)
-    if not len(rows):
-        return None
-    tops = boxes[rows, 1, 2]
-    rows = rows[tops >= tops.max() - _AT_THE_TOP]
-    middles = boxes[rows, :, :2].mean(axis=1)
-    return int(rows[np.argmin(np.square(middles - point).sum(axis=1))])
+def highest_under(points: np.ndarray, boxes: np.ndarray, removed: np.ndarray) -> np.ndarray:
+    """Return the shards (k,) whose boxes (n, 2, 3) are under points (k, 2) and highest, -1 where there is none.
+
+    Of several that are as high it is the nearest on plan.
+    """
+    middles = boxes[:, :, :2].mean(axis=1)
+    found = np.full(len(points), -1)
+    for first in range(0, len(points), _POINTS_AT_ONCE):
+        part = points[first : first + _POINTS_AT_ONCE, None]
+        over = ((boxes[:, 0, :2] <= part) & (part <= boxes[:, 1, :2])).all(axis=2) & ~removed
+        tops = np.where(over, boxes[:, 1, 2], -np.inf)
+        at_the_top = over & (tops >= tops.max(axis=1, keepdims=True) - _AT_THE_TOP)
+        apart = np.where(at_the_top, np.square(middles - part).sum(axis=2), np.inf)
+        found[first : first + _POINTS_AT_ONCE] = np.where(over.any(axis=1), apart.argmin(axis=1), -1)
+    return found
 
 
 def added_masses_kg(loads: Sequence[DeadLoad], members: Sequence[Member], bounds_m: np.ndarray) -> np.ndarray:
@@ -87,13 +93,11 @@ def added_masses_kg(loads: Sequence[DeadLoad], members: Sequence[Member], bounds
         if load.until_s is not None:
             continue
         lying = lying_load(load, members)
-        for point, mass_kg in zip(lying.points_m, lying.masses_kg.tolist(), strict=True):
-            shard = highest_under(point, bounds_m, none)
-            if shard is None:
-                raise ScenarioError(
-                    f'dead_loads "{load.name}": nothing of the bridge is under {point.round(2).tolist()} m'
-                )
-            masses[shard] += mass_kg
+        shards = highest_under(lying.points_m, bounds_m, none)
+        if (shards < 0).any():
+            where = lying.points_m[shards < 0][0].round(2).tolist()
+            raise ScenarioError(f'dead_loads "{load.name}": nothing of the bridge is under {where} m')
+        np.add.at(masses, shards, lying.masses_kg)
     return masses
 
 
