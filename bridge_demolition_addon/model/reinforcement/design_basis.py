@@ -319,7 +319,7 @@ class DesignBasis(BarDesign):
 
 
 def column_loads(axial_n: float, moment_nm: float) -> Text:
-    """Return the design loads of a column or wall in words, the reason of its bars."""
+    """Return the design loads of a column or wall as text: the reason of its bars."""
     axial, moment = Quantity(axial_n / _KILO, "kN", ".0f"), Quantity(moment_nm / _KILO, "kN·m", ".0f")
     return Text("{} = {}, {} = {}", "N_Ed", axial, "M_Ed", moment)
 
