@@ -4,9 +4,9 @@ A pulse is Friedlander's, the report's equation 1 (1946): p(τ) = p₀ (1 - τ/t
 front arrived; the pulse is over at τ = t_d. The suction that follows, the negative phase, is not modelled.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
-from math import factorial
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -16,8 +16,9 @@ from ..arithmetic import cube_root, exponential
 from ..arrays import BoolArray, FloatArray, IntArray
 from ..core.calls import call
 from ..core.structs import Count, Doubles, Struct, WrittenDoubles
+from ..geometry.vectors import distance
 from . import kingery_bulmash, kinney_graham
-from .wave import Burst, NamedChoice, Wave, checked, scaled_distance
+from .wave import SMALLEST_SCALED_DISTANCE, Burst, NamedChoice, Wave, checked, scaled_distance
 
 REPORT_DECAY = 1.0
 """The one decay of the report of 2019, for any charge and stand-off."""
@@ -30,7 +31,7 @@ _SERIES_TERMS = 15
 """Enough for the last term to be below rounding where the series is used: 0.5^15 / 15! is 2e-17."""
 
 _SERIES = [
-    [1.0 / (factorial(term) * (term + order + 1)) for order in range(3)] for term in reversed(range(_SERIES_TERMS))
+    [1.0 / (math.factorial(term) * (term + order + 1)) for order in range(3)] for term in reversed(range(_SERIES_TERMS))
 ]
 """Coefficients of the series of three moments, the last term first."""
 
@@ -138,13 +139,13 @@ def blast_pulses(
     model: BlastModel | str = BlastModel.KINGERY_BULMASH,
     loading: Loading | str = Loading.INCIDENT,
     constant_decay: float | None = None,
-    pressure_factor: float = 1.0,
+    pressure_factor: ArrayLike = 1.0,
 ) -> Pulses:
     """Return the pulses of charges on bodies, from stand-offs (n, c), masses and delays (c,), and c bursts.
 
     Stand-offs nearer than a charge's surface count as that. `constant_decay` is one decay for all pulses, such as
-    `REPORT_DECAY`; None solves each from peak, duration and impulse. Impulses grow with `pressure_factor` as pressures
-    do; times and decays stay.
+    `REPORT_DECAY`; None solves each from peak, duration and impulse. Impulses grow with `pressure_factor`, one or (c,),
+    as pressures do; times and decays stay.
 
     Examples
     --------
@@ -155,7 +156,7 @@ def blast_pulses(
     stand_offs = checked(stand_offs_m, "stand-off", "m")
     masses, delays = checked(tnt_kg, "charge", "kg of TNT"), checked(delays_s, "delay", "s")
     _check_shapes(stand_offs, masses, delays, bursts)
-    checked(pressure_factor, "pressure factor", "no unit")
+    factors = np.broadcast_to(checked(pressure_factor, "pressure factor", "no unit"), masses.shape)
     if constant_decay is not None:
         checked(constant_decay, "decay", "no unit")
     pulses = Pulses(*(np.zeros(stand_offs.shape) for _ in range(4)))
@@ -170,8 +171,35 @@ def blast_pulses(
             duration, decay = fitted(peak, duration, impulse)
         else:
             decay = np.full(peak.shape, constant_decay)
-        pulses.put(columns, Pulses(wave.arrival_time_s + delays[columns], pressure_factor * peak, duration, decay))
+        arrivals = wave.arrival_time_s + delays[columns]
+        pulses.put(columns, Pulses(arrivals, factors[columns] * peak, duration, decay))
     return pulses
+
+
+def charges_as_fired(
+    sources_m: FloatArray, tnt_kg: ArrayLike, delays_s: ArrayLike, bursts: Sequence[Burst | str]
+) -> tuple[FloatArray, FloatArray]:
+    """Return the TNT (c,) that goes off as one with each of c charges, its own included, and its share of that (c,).
+
+    Charges that touch each other as balls and detonate at one time make one wave, whose impulse is less than the sum of
+    two (Hopkinson 1915, Cranz 1926): each has its share of the pressure of all.
+    """
+    masses = checked(tnt_kg, "charge", "kg of TNT")
+    radii_m = SMALLEST_SCALED_DISTANCE * cube_root(masses)
+    groups: list[list[int]] = []
+    for row, times in enumerate(zip(delays_s, map(Burst, bursts), strict=True)):
+        for group in groups:
+            first = group[0]
+            is_near = distance(sources_m[row], sources_m[first]) <= radii_m[row] + radii_m[first]
+            if times == (delays_s[first], Burst(bursts[first])) and is_near:
+                group.append(row)
+                break
+        else:
+            groups.append([row])
+    together = masses.copy()
+    for group in groups:
+        together[group] = math.fsum(masses[group])
+    return together, np.divide(masses, together, out=np.ones_like(masses), where=together > 0.0)
 
 
 def impulse_between(pulses: Pulses, start_s: float, end_s: float) -> FloatArray:

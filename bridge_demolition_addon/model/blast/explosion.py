@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...engineering.blast.exposure import lines_of_blast, projected_areas, visible_shares
-from ...engineering.blast.pulses import Pulses, blast_pulses, impulse_between
+from ...engineering.blast.pulses import Pulses, blast_pulses, charges_as_fired, impulse_between
 from ...engineering.blast.wave import scaled_distance
 from ...engineering.geometry.hulls import ConvexHulls
 from .charges import Charge
@@ -48,9 +48,11 @@ class Explosion:
     def __init__(self, charges: Sequence[Charge], hulls: ConvexHulls, settings: BlastSettings):
         self._hulls, self._settings = hulls, settings
         self._sources_m = np.array([charge.position_m for charge in charges], float).reshape(-1, 3)
-        self._tnt_kg = np.array([charge.tnt_kg for charge in charges], float)
         self._detonations_s = settings.start_s + np.array([charge.delay_s for charge in charges], float)
         self._bursts = [charge.burst for charge in charges]
+        self._tnt_kg, self._parts = charges_as_fired(
+            self._sources_m, [charge.tnt_kg for charge in charges], self._detonations_s, self._bursts
+        )
         shape = (len(hulls), len(charges))
         self._detonated = np.zeros(shape[1], bool)
         self._pulses = Pulses(np.full(shape, np.inf), np.zeros(shape), np.zeros(shape), np.zeros(shape))
@@ -108,7 +110,7 @@ class Explosion:
             model=settings.model,
             loading=settings.loading,
             constant_decay=settings.constant_decay,
-            pressure_factor=settings.pressure_factor,
+            pressure_factor=settings.pressure_factor * self._parts[columns],
         )
         self._pulses.put(columns, pulses)
         self._stand_offs[:, columns], self._directions[:, columns] = stand_offs, directions

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...engineering.blast import vibration
-from ...engineering.blast.pulses import BlastModel, Pulses, blast_pulses, blast_wave, pressure_at
+from ...engineering.blast.pulses import BlastModel, Pulses, blast_pulses, blast_wave, charges_as_fired, pressure_at
 from ...engineering.geometry.vectors import distance
 from .charges import Charge
 
@@ -60,15 +60,20 @@ def loads_at(
     between charge and position, and no wall sends anything back.
     """
     charges = [charge for charge in charges if charge.mass_kg > 0.0]
-    stand_offs = distance(np.array(position_m), np.array([[charge.position_m for charge in charges]]))
+    sources = np.array([charge.position_m for charge in charges])
+    stand_offs = distance(np.array(position_m), sources[None])
     delays = np.array([charge.delay_s for charge in charges])
     bursts = [charge.burst for charge in charges]
-    by_pressure = np.array([charge.tnt_for_pressure_kg for charge in charges])
-    by_impulse = np.array([charge.tnt_kg for charge in charges])
-    pulses = blast_pulses(stand_offs, by_pressure, delays, bursts, model=model, pressure_factor=pressure_factor)
+
+    def pulses_by(tnt_kg: list[float]) -> Pulses:
+        together, parts = charges_as_fired(sources, tnt_kg, delays, bursts)
+        return blast_pulses(
+            stand_offs, together, delays, bursts, model=model, pressure_factor=pressure_factor * parts
+        )
+
+    pulses = pulses_by([charge.tnt_for_pressure_kg for charge in charges])
     times = _times(pulses)
-    of_impulse = blast_pulses(stand_offs, by_impulse, delays, bursts, model=model, pressure_factor=pressure_factor)
-    impulses = of_impulse.impulses_pa_s
+    impulses = pulses_by([charge.tnt_kg for charge in charges]).impulses_pa_s
     pressures = pressure_at(pulses, times[:, None]).sum(axis=1)
     return PlaceLoads(
         distance_m=float(stand_offs.min()),
@@ -87,14 +92,16 @@ def peak_overpressures(
     model: BlastModel | str = BlastModel.KINGERY_BULMASH,
     pressure_factor: float = 1.0,
 ) -> np.ndarray:
-    """Return the largest incident overpressure (p,) at points (p, 3) that any one charge gives by itself, Pa.
+    """Return the largest incident overpressure (p,) at points (p, 3) that any one charge gives, Pa.
 
-    Where waves of several charges meet, their pressures can add up to more.
+    Charges that touch and go off together are one. Where waves of several charges meet, their pressures can add up to more.
     """
     peaks = np.zeros(len(points_m))
-    for charge in charges:
-        stand_offs = distance(points_m, np.array(charge.position_m))
-        wave = blast_wave(stand_offs, charge.tnt_for_pressure_kg, charge.burst, model)
+    sources = np.array([charge.position_m for charge in charges]).reshape(-1, 3)
+    by_pressure, delays = ([getattr(charge, name) for charge in charges] for name in ("tnt_for_pressure_kg", "delay_s"))
+    together, _ = charges_as_fired(sources, by_pressure, delays, [charge.burst for charge in charges])
+    for charge, tnt_kg in zip(charges, together, strict=True):
+        wave = blast_wave(distance(points_m, np.array(charge.position_m)), tnt_kg, charge.burst, model)
         peaks = np.maximum(peaks, pressure_factor * wave.peak_overpressure_pa)
     return peaks
 

@@ -53,6 +53,13 @@ def _check_names(members: Sequence[Member]) -> None:
     for name in names:
         if names.count(name) > 1:
             raise ScenarioError(f'two members are called "{name}": expected a name of its own for each')
+    for member in members:
+        of_kind = next((other.name for other in members if other.kind == member.name != member.kind), None)
+        if of_kind is not None:
+            raise ScenarioError(
+                f'the member "{member.name}" has the name of a kind, that of {of_kind}: expected another name, or that '
+                "kind, as keys that name one would mean both"
+            )
 
 
 def _bridge_on(terrain: Terrain | None, scenario: Scenario) -> tuple[Member, ...]:

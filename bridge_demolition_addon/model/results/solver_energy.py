@@ -44,7 +44,8 @@ class Throws:
         Whether at least half of that kinetic energy was made by the solver.
     beyond_fall : (d,) bool
         Whether they flew farther than twice the height of a fall with all their energy: down to the ground, and by the
-        height that the speed with which they began, and that of a ball, make up for. Never where charges went off.
+        height that the speed with which they began, and that of a ball, make up for. Never where charges went off, nor
+        where the solver made less than the energy that is lacking: such a shard has slid or rolled.
     """
 
     bodies: np.ndarray
@@ -76,10 +77,14 @@ def throws_of(results: Results) -> Throws:
     lowest = 0.0 if ground.is_flat else np.minimum(ground.heights_at(first[:, :2]), last[:, 2])
     shards, throws, heights = shards[order], throws[order], (first[:, 2] - lowest)[order]
     made = np.nansum(frames.work.made_j[:, shards], axis=0)
+    masses_kg = results.inventory.masses_kg[shards]
     squares = dot(frames.velocities_m_s[:, shards], frames.velocities_m_s[:, shards])
-    kinetic = 0.5 * results.inventory.masses_kg[shards] * squares.max(axis=0)
+    kinetic = 0.5 * masses_kg * squares.max(axis=0)
     heights = np.maximum(heights, 0.0) + (squares[0] + _square_of_balls(results)) / (2.0 * STANDARD_GRAVITY_M_S2)
     beyond = throws > LARGEST_THROW_PER_HEIGHT * heights
+    if is_known(results):
+        lacking_j = masses_kg * STANDARD_GRAVITY_M_S2 * (throws / LARGEST_THROW_PER_HEIGHT - heights)
+        beyond &= lacking_j <= np.nansum(frames.work.made_j)
     if frames.blast_impulses_ns.any():
         beyond = np.zeros(len(shards), bool)
     return Throws(shards, throws, made, kinetic, flies_on_solver_energy(throws, made, kinetic), beyond)
@@ -93,7 +98,7 @@ def _square_of_balls(results: Results) -> float:
 
 def flies_on_solver_energy(throws_m: np.ndarray, made_j: np.ndarray, largest_kinetic_j: np.ndarray) -> np.ndarray:
     """Return whether bodies (n,) were thrown, with at least half of their kinetic energy from the solver."""
-    return (throws_m > MOVED_M) & (made_j >= DOUBTFUL_SHARE * largest_kinetic_j)
+    return (throws_m > MOVED_M) & (made_j > 0.0) & (made_j >= DOUBTFUL_SHARE * largest_kinetic_j)
 
 
 def energy_summary(results: Results) -> dict[str, Any] | None:

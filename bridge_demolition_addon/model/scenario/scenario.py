@@ -4,7 +4,7 @@ import math
 from collections.abc import Hashable
 from dataclasses import dataclass, field, replace
 from functools import cache
-from itertools import chain
+from itertools import chain, combinations
 from typing import Any, ClassVar, Literal, NamedTuple
 
 from ...engineering.elasticity.steel_bars import Steel
@@ -50,6 +50,7 @@ from .bridge import Bridge
 from .bridge_axes import upright_names
 from .connection_joints import joints_of_connections
 from .connections import ConnectionSettings
+from .connections_between import GROUND_NAME
 from .contacts import BodyInContact, ContactSettings, SurfaceValues, check_not_both, with_own_values
 from .dead_loads import DeadLoad
 from .fracture import FractureSettings
@@ -290,6 +291,11 @@ class Scenario(Table):
 
     def _check_together(self) -> None:
         named_tables(self)  # zones of several members have names of their own
+        steel = (*self.steelwork.nodes, *self.steelwork.members) if self.steelwork else ()
+        for table in (*self.geometry, *steel):
+            if table.name.strip() == GROUND_NAME:
+                raise table.unexpected("name", "another name: this is what all stands on")
+        self._check_equipment()
         check_zones_apart(self.blast_zones)
         check_cuts(self.cuts, self.blast_zones)
         self._check_slow_motion()
@@ -325,6 +331,16 @@ class Scenario(Table):
             )
         self._check_dead_loads()
         self._check_foundations()
+
+    def _check_equipment(self) -> None:
+        """Check that no machine stands twice at one time, as it would weigh twice."""
+        for (first, one), (second, other) in combinations(enumerate(self.equipment, start=1), 2):
+            if one.name == other.name and (one.stands_at(other.from_s) or other.stands_at(one.from_s)):
+                raise ScenarioError(
+                    f"[[equipment]] number {first} and [[equipment]] number {second} are both {shown(one.name)} at "
+                    f"{max(one.from_s, other.from_s):g} s: expected a name of its own for each machine, or "
+                    "equipment.until_s of the first before the second begins"
+                )
 
     def _check_dead_loads(self) -> None:
         """Check that what is taken off goes before anything else is done, as a run begins without it."""

@@ -143,7 +143,8 @@ class Stability:
             of = f" {self.used_of}" if self.used_of else ""
             yield Text(f"largest utilisation {{}}{of} ({{}})", f"{self.utilisation:.0%}", self.used_most)
         if self.deflection_m is not None:
-            yield Text("deflection {}", Quantity(1000.0 * self.deflection_m, "mm", ".2f"))
+            words = "deflection {}" if self.deflection_m >= 0.0 else "camber {}"
+            yield Text(words, Quantity(1000.0 * abs(self.deflection_m), "mm", ".2f"))
 
     @property
     def asleep_sentence(self) -> str:

@@ -21,7 +21,7 @@ from ..scenario import Scenario
 from ..scenario.connections import MATERIAL_OF_LARGE_MODELS
 from ..schema import given
 from ..structure.cracking import FALLEN_SHARE, CrackedBridge, RestingModel, StandingBare, SteelBeside
-from ..structure.equilibrium import at_rest, held_motions, inertias_of
+from ..structure.equilibrium import at_rest, deflection_m, held_motions, inertias_of
 from ..structure.model import Model
 from ..structure.section_use import SectionsWithBars
 from ..structure.utilisation import Utilisations
@@ -55,7 +55,7 @@ class Standing:
     loads: ConnectionLoads  # of all m connections, in the axes of the world; 0 for those that are gone
     alone: np.ndarray  # (m,), utilisation of each connection by itself; nan for those that are gone
     together: np.ndarray  # (m,), utilisation of the sections of their members; nan as above
-    sag_m: float  # largest downward displacement of a shard
+    sag_m: float  # largest downward displacement of a shard, below 0 where a larger one is upwards
     frequency_hz: float  # first natural frequency, without cracks
     cracked: np.ndarray  # (m,), connections that cracked and hold by their bars, of which both utilisations are then
     uncracked: Equilibrium  # as if nothing cracked
@@ -168,14 +168,12 @@ class StandingBridge:
         held = solution.held[:-1]
         parts = self.parts(intact)
         alone, together = self._utilisations.of(of_connections, intact, left, parts, every_section=every_section)
-        deflections_m = model.centres_m[held, 2] - solution.positions_m[2, :-1][held]
-        deflection_m = float(deflections_m.max(initial=0.0))
         return Standing(
             held=held,
             loads=of_connections,
             alone=alone,
             together=together,
-            sag_m=deflection_m,
+            sag_m=deflection_m(model, solution),
             frequency_hz=solution.frequency_hz,
             cracked=np.zeros(len(intact), bool),
             uncracked=solution,

@@ -29,7 +29,7 @@ from ...engineering.mechanics.section_cuts import ConnectionLoads
 from ...engineering.structure.connections import GROUND
 from ...engineering.units import STANDARD_GRAVITY_M_S2
 from ..schema import given
-from .equilibrium import held_motions, inertias_of, model_at_rest
+from .equilibrium import held_motions, inertias_of, largest_deflection_m, model_at_rest
 from .model import CrackBars, Model
 from .utilisation import Utilisations
 
@@ -190,9 +190,9 @@ class CrackedBridge:
 
     @property
     def deflection_m(self) -> float:
-        """Return the largest deflection of a shard that is held."""
+        """Return the largest deflection of a shard that is held, below 0 where it is upwards."""
         fallen = self._model.centres_m[:, 2] - self._structure.positions_m[2, :-1]
-        return float(fallen[self.held].max(initial=0.0))
+        return largest_deflection_m(fallen[self.held])
 
     @property
     def holding(self) -> np.ndarray:

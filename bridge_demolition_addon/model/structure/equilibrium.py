@@ -25,11 +25,16 @@ from .model import Model
 
 
 def deflection_m(model: Model, rest: Equilibrium) -> float:
-    """Return the largest deflection of a shard that is held, m."""
+    """Return the largest deflection of a shard that is held, m, as in `largest_deflection_m`."""
     shards = len(model.shards)
     held = rest.held[:shards]
-    fallen = model.centres_m[held, 2] - rest.positions_m[2, :shards][held]
-    return float(fallen.max(initial=0.0))
+    return largest_deflection_m(model.centres_m[held, 2] - rest.positions_m[2, :shards][held])
+
+
+def largest_deflection_m(fallen_m: np.ndarray) -> float:
+    """Return the largest of displacements (n,) downwards; below 0 where a larger one is upwards, as by tendons."""
+    fallen, risen = float(fallen_m.max(initial=0.0)), float(-fallen_m.min(initial=0.0))
+    return fallen if fallen >= risen else -risen
 
 
 def overloaded(model: Model, rest: Equilibrium, joints: Sequence[Joint]) -> np.ndarray:

@@ -302,7 +302,7 @@ def rest_facts(scenario: Scenario, resting: RestingModel) -> Iterator[Fact]:
         deflected_m, with_cracks = (
             (stands.deflection_m, ", with its cracks") if stands else (deflection_m(model, rest), "")
         )
-        yield "deflection", f"{1000.0 * deflected_m:.2f} mm{with_cracks}"
+        yield "deflection" if deflected_m >= 0.0 else "camber", f"{1000.0 * abs(deflected_m):.2f} mm{with_cracks}"
         yield "first frequency", f"{rest.frequency_hz:.3f} Hz{', without cracks' if stands else ''}"
         yield "damping", _damping_text(scenario, rest.frequency_hz)
 

@@ -40,6 +40,19 @@ def test_steps_of_any_length_add_up_to_the_impulse_of_the_table(steps):
     assert total[0] == pytest.approx([IMPULSE_AT_5_PA_S, 0.0, 0.0], rel=2e-4)
 
 
+def test_charges_that_touch_and_go_off_together_load_as_one():
+    """Half a kilogram of TNT is a ball of 42 mm: two of them 80 mm apart have the impulse of one kilogram."""
+    halves = charge((0.04, 0.0, 0.0), 0.5), charge((-0.04, 0.0, 0.0), 0.5)
+    once = explosion(*halves).loads(0.0, 0.1, CENTRES, UPRIGHT)
+    assert once.vectors(2)[0, 0] == pytest.approx(IMPULSE_AT_5_PA_S, rel=1e-3)
+    assert once.impulses_ns[0] == pytest.approx(once.impulses_ns[1], rel=0.02)
+    one_later = charge((0.04, 0.0, 0.0), 0.5), charge((-0.04, 0.0, 0.0), 0.5, delay=0.001)
+    beside = charge((0.0, 0.0, 0.0), 0.5), charge((0.0, 0.0, 0.1), 0.5)
+    for two_waves in (one_later, beside):
+        loads = explosion(*two_waves).loads(0.0, 0.1, CENTRES, UPRIGHT)
+        assert loads.vectors(2)[0, 0] > 1.2 * IMPULSE_AT_5_PA_S
+
+
 @pytest.mark.parametrize("options", [{}, {"model": "kinney-graham", "constant_decay": 1.0}, {"loading": "reflected"}])
 def test_twice_the_pressure_is_twice_the_impulse_at_the_same_times(options):
     charges = charge((0, 0, 0)), charge((2, 2, 0), 3.0, delay=0.01)

@@ -34,6 +34,14 @@ def test_waves_that_arrive_together_add_up_and_apart_they_do_not():
     assert together.impulse_pa_s == apart.impulse_pa_s == pytest.approx(2.0 * alone.impulse_pa_s)
 
 
+def test_charges_that_touch_and_go_off_together_are_one_at_a_neighbour():
+    position, whole, halves = (10.0, 0.0, 0.0), [charge(0.0, 8.0)], [charge(0.0, 3.0), charge(0.0, 5.0)]
+    one, other = loads_at(position, whole), loads_at(position, halves)
+    assert (other.peak_pa, other.impulse_pa_s) == pytest.approx((one.peak_pa, one.impulse_pa_s))
+    points = np.array([position])
+    assert peak_overpressures(points, halves) == pytest.approx(peak_overpressures(points, whole))
+
+
 def test_the_pressure_over_time_has_the_impulse_of_the_pulse():
     load = loads_at((10.0, 0.0, 0.0), [charge(0.0, 8.0)])
     # Straight lines between 24 times of a decaying pulse.

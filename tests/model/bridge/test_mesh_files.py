@@ -203,6 +203,8 @@ def test_a_member_beside_the_bridge_is_cut_where_the_bridge_is(file_of):
 def test_names_of_members_differ(file_of):
     with pytest.raises(ScenarioError, match='two members are called "deck"'):
         prepared_members(replace(I235, geometry=[member_of(file_of(), name="deck")]))
+    with pytest.raises(ScenarioError, match='the member "pier" has the name of a kind, that of pier 1'):
+        prepared_members(replace(I235, geometry=[member_of(file_of(), name="pier", kind="wall")]))
 
 
 def test_a_scenario_needs_a_bridge_or_geometry():

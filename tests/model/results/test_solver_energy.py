@@ -43,12 +43,31 @@ def test_a_throw_above_twice_the_height_of_fall_is_doubtful():
     assert with_speeds(2.01 * height).beyond_fall.tolist() == [True, False]
 
 
-def with_speeds(distance_m, *, shard_m_s=0.0, ball_m_s=0.0):
-    """A throw of the lower shard, which begins with a speed, in a run in which a ball has one; nothing else moves."""
+def test_no_throw_is_doubtful_whose_energy_the_solver_did_not_make():
+    """A shard that slid 1 m beyond twice its height lacks half a metre of fall."""
+    results = hanging_chain()
+    height, mass_kg = results.frames.positions_m[0, 2, 2], results.inventory.masses_kg[2]
+    lacking_j = mass_kg * 9.80665 * 0.5
+    assert not with_speeds(2.0 * height + 1.0, made_j=0.0).doubtful.any()
+    assert not with_speeds(2.0 * height + 1.0, made_j=0.99 * lacking_j).doubtful.any()
+    assert with_speeds(2.0 * height + 1.0, made_j=1.01 * lacking_j).beyond_fall.tolist() == [True, False]
+    assert with_speeds(2.0 * height + 1.0, made_j=np.nan).beyond_fall.tolist() == [True, False]
+
+
+def with_speeds(distance_m, *, shard_m_s=0.0, ball_m_s=0.0, made_j=1e9):
+    """A throw of the lower shard, which begins with a speed, in a run in which a ball has one; nothing else moves.
+
+    The solver made so much energy, at the upper shard; nan where that is not known.
+    """
     velocities = np.zeros_like(hanging_chain().frames.velocities_m_s)
     velocities[0, 2] = np.array([0.6, 0.0, 0.8]) * shard_m_s
     velocities[3, 3, 2] = -ball_m_s
-    return throws_of(thrown(distance_m, velocities_m_s=velocities))
+    made = np.zeros_like(hanging_chain().arrays()["made_by_solver_j"])
+    made[3, 1] = made_j
+    gravity = np.full(len(made), made_j if np.isnan(made_j) else 0.0)
+    return throws_of(
+        thrown(distance_m, velocities_m_s=velocities, made_by_solver_j=made, work_of_gravity_j=gravity)
+    )
 
 
 def test_the_longest_toss_with_a_speed_is_not_doubtful_and_one_a_half_longer_is():

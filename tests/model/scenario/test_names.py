@@ -10,7 +10,7 @@ from support.scenarios import I235
 
 from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.optimise.settings import OptimiseSettings
-from bridge_demolition_addon.model.scenario import Scenario, Zone
+from bridge_demolition_addon.model.scenario import Equipment, Geometry, Scenario, Zone
 from bridge_demolition_addon.model.scenario.file import read_scenario, scenario_text
 from bridge_demolition_addon.model.schema import Table, holds_many, named_tables, subtable_class, subtable_fields
 from bridge_demolition_addon.model.search.settings import SearchSettings
@@ -87,3 +87,19 @@ def test_a_study_of_a_scenario_with_one_name_twice_is_refused(tmp_path: Path):
     (tmp_path / "twice.toml").write_text(text + zone.format(20) + zone.format(500), encoding="utf-8")
     with pytest.raises(ScenarioError, match=r'number \d and \[\[zones\]\] number \d have one name, "lane"'):
         read_scenario(tmp_path / "twice.toml")
+
+
+def test_no_member_of_ones_own_is_called_the_ground():
+    own = Geometry(name="ground", file="a.stl", density_kg_m3=2500.0)
+    with pytest.raises(ScenarioError, match='geometry.name is "ground": expected another name'):
+        replace(I235, geometry=(own,))
+    replace(I235, geometry=(replace(own, name="ground slab"),))
+
+
+def test_a_machine_stands_once_at_a_time():
+    first = Equipment(name="excavator", mass_kg=24_000, position_m=(3.0, 0.0), footprint_m=(4.0, 3.0), until_s=0.5)
+    after, beside = replace(first, from_s=0.5, until_s=None), replace(first, name="second excavator")
+    replace(I235, equipment=(first, after, beside))
+    for twice in (first, replace(first, position_m=(9.0, 0.0)), replace(after, from_s=0.4)):
+        with pytest.raises(ScenarioError, match=r'number 1 and \[\[equipment\]\] number 2 are both "excavator" at 0'):
+            replace(I235, equipment=(first, twice))

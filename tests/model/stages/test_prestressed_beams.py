@@ -51,6 +51,15 @@ def test_camber_of_a_straight_tendon():
     assert rises_m == pytest.approx(by_hand, rel=0.02)
 
 
+@pytest.mark.parametrize("share", [0.5, 2.0])
+def test_deflection_is_below_0_where_tendons_lift_the_beam(share):
+    """(P e / 8 - 5 M / 48) L² / E I upwards, in the middle, with M = w L² / 8: with half the prestress it hangs."""
+    beam = Beam(beam_text(tendon(STRAIGHT, area_mm2=share * AREA_MM2)))
+    moments_nm = share * FORCE_N * ECCENTRICITY_M / 8.0 - 5.0 * beam.weight_moment_nm / 48.0
+    by_hand = moments_nm * beam.span_m**2 / beam.stiffness_nm2
+    assert beam.rest().sag_m == pytest.approx(-by_hand, rel=0.03)
+
+
 def test_camber_of_a_draped_tendon():
     """5 w L⁴ / 384 E I with w = 8 P e / l², of a tendon that is longer than the span: with moments at the bearings."""
     beam, rises_m = camber_m(DRAPED)
