@@ -27,6 +27,7 @@ from ..scenario import ConnectionBetween, ConnectionSettings, Scenario
 from ..scenario.connections import LARGE_MODEL, MATERIAL_OF_LARGE_MODELS
 from ..scenario.girders import GirderSpan, StudRow
 from ..scenario.scenario import JointName, bearing_tables, studs_of
+from ..scenario.steelwork import Steelwork
 from ..schema import given
 from .bearing_ranges import bearing_facts
 from .cracking import CrackedBridge, RestingModel
@@ -78,6 +79,24 @@ def connection_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
     yield "shards", f"{len(model.shards)}"
     kind = f"{connections.type}, {_method(connections)}, at most {connections.limit_per_shard} per shard"
     yield "connections", f"{len(model.connections.pairs)}, {kind}"
+    if scenario.steelwork:
+        yield "bars of steel", _grades_text(scenario.steelwork)
+    names = list(scenario.named_joints)
+    if {names[row].kind for row in np.unique(model.joint_of_connection).tolist()} != {"steel"}:
+        yield from _breaking_facts(scenario, model)
+    yield from _piece_facts(model)
+    yield from _bar_facts(scenario, model)
+    yield from _spread_facts(scenario, model)
+    yield from _starter_facts(scenario, model)
+    yield from _punching_facts(scenario, model)
+    yield from _rule_facts(scenario)
+    yield from _clamping_facts(scenario, model)
+    yield from _bearing_facts(scenario, model)
+
+
+def _breaking_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
+    """Yield what connections break by that are of no bars of steel."""
+    connections = scenario.connections
     is_large = scenario.fracture.shards >= LARGE_MODEL
     if connections.material is not None:
         is_usual = is_large and connections.material == MATERIAL_OF_LARGE_MODELS
@@ -95,14 +114,18 @@ def connection_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
             yield from _stress_facts(force, scenario, model)
             yield "", "one force for all: the finer the bridge is cut, the stronger it is. To break by the"
             yield "", f'strength of {MATERIAL_OF_LARGE_MODELS} give none, and method "face"'
-    yield from _piece_facts(model)
-    yield from _bar_facts(scenario, model)
-    yield from _spread_facts(scenario, model)
-    yield from _starter_facts(scenario, model)
-    yield from _punching_facts(scenario, model)
-    yield from _rule_facts(scenario)
-    yield from _clamping_facts(scenario, model)
-    yield from _bearing_facts(scenario, model)
+
+
+def _grades_text(steelwork: Steelwork) -> str:
+    """Return the grades of all bars, with their yield strengths by thickness."""
+    strengths: dict[str, set[float]] = {}
+    for bar in steelwork.all_members:
+        strengths.setdefault(steelwork.grade_of(bar), set()).add(steelwork.yield_and_ultimate_pa(bar)[0])
+    named = (
+        f"{grade}, yield strength {' or '.join(f'{pa / NEWTON_PER_SQUARE_MILLIMETRE:g}' for pa in sorted(yields))} N/mm²"
+        for grade, yields in sorted(strengths.items())
+    )
+    return "; ".join(named)
 
 
 def _piece_facts(model: Model) -> Iterator[Fact]:

@@ -328,3 +328,13 @@ def test_eccentricities_are_one_for_each_node():
     column = bar("column", "foot", "top", "HEB 200", eccentricities_m=[[0.0, 0.0, 0.1]])
     with pytest.raises(ScenarioError, match=r"eccentricities_m is .* expected two, one for each node"):
         steel_scenario([node("foot", 0.0, 0.0, support="fixed"), node("top", 0.0, 4.0)], [column])
+
+
+@pytest.mark.parametrize(("section", "yields"), [("IPE 300", "355"), ("HEM 1000", "355"), ("FLAT 300x60", "335")])
+def test_what_bars_of_steel_break_by_is_their_grade_and_no_material(section, yields):
+    """EN 1993-1-1, table 3.1, S355: 355 N/mm² up to 40 mm, 335 above."""
+    nodes = [node("A", 0.0, 4.0, support="fixed"), node("B", 8.0, 4.0, support="fixed")]
+    scenario = steel_scenario(nodes, [bar("girder", "A", "B", section)])
+    facts = dict(connection_facts(scenario, build_model(scenario)))
+    assert facts["bars of steel"] == f"S355, yield strength {yields} N/mm²"
+    assert "strength of" not in facts and "in tension" not in facts
