@@ -44,10 +44,11 @@ def contact_restitution(first: float, second: float) -> float:
 
 
 def slowest_bounce_m_s(restitution: float, half_diagonal_m: float, substep_s: float) -> float:
-    """Return the speed of approach below which two bodies do not part again in Bullet, m/s.
+    """Return the speed of approach below which two round bodies do not part again in Bullet, m/s.
 
     Bullet slows down bodies in contact to the velocity gap / sub-step - e v, and parts them where that is below 0. One
     that is found at a distance therefore only ends the approach. Bodies part where they come, within one sub-step, from
     farther than `CONTACT_DISTANCE` to nearer than e v Δt: then (1 + e) v Δt is longer than that distance.
+    Flat faces meet in corners that Bullet finds one after the other, and may part below it.
     """
     return CONTACT_DISTANCE * half_diagonal_m / ((1.0 + restitution) * substep_s)

@@ -67,9 +67,7 @@ def loads_at(
 
     def pulses_by(tnt_kg: list[float]) -> Pulses:
         together, parts = charges_as_fired(sources, tnt_kg, delays, bursts)
-        return blast_pulses(
-            stand_offs, together, delays, bursts, model=model, pressure_factor=pressure_factor * parts
-        )
+        return blast_pulses(stand_offs, together, delays, bursts, model=model, pressure_factor=pressure_factor * parts)
 
     pulses = pulses_by([charge.tnt_for_pressure_kg for charge in charges])
     times = _times(pulses)
@@ -94,7 +92,7 @@ def peak_overpressures(
 ) -> np.ndarray:
     """Return the largest incident overpressure (p,) at points (p, 3) that any one charge gives, Pa.
 
-    Charges that touch and go off together are one. Where waves of several charges meet, their pressures can add up to more.
+    Charges that touch and go off together are one. Where waves of several meet, their pressures can add up to more.
     """
     peaks = np.zeros(len(points_m))
     sources = np.array([charge.position_m for charge in charges]).reshape(-1, 3)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import lru_cache
 from typing import TypeVar
 
 from ...engineering.mechanics.strength import NEWTON_PER_SQUARE_MILLIMETRE
@@ -132,11 +133,12 @@ def _concrete(scenario: Scenario, rule: BarRule, material: str | None) -> Concre
     return Concrete(compression_pa)
 
 
-def _designed(basis: DesignBasis) -> Iterator[ScheduledBars | ScheduledLinks]:
+@lru_cache(maxsize=8)
+def _designed(basis: DesignBasis) -> tuple[ScheduledBars | ScheduledLinks, ...]:
+    """Return the bars of a bridge, kept: another cut of it, and its schedule, have the same."""
     lines = deck_lines(basis)
-    for line in lines:
-        yield from deck_bars(basis, line)
-    yield from pier_bars(basis, support_loads(basis, lines))
+    of_decks = (row for line in lines for row in deck_bars(basis, line))
+    return (*of_decks, *pier_bars(basis, support_loads(basis, lines)))
 
 
 def _notes(bridge: Bridge, rule: BridgeReinforcement, bars: Sequence[ScheduledBars]) -> Iterator[str]:

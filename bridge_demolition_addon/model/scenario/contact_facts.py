@@ -51,7 +51,12 @@ def contact_facts(scenario: Scenario) -> Iterator[Fact]:
         ]
         yield (
             "bounce",
-            Text("none below {}, with sub-steps of {} ms", joined("{} and {}", named), f"{1000.0 * substep_s:.3g}"),
+            Text(
+                "not to be relied on below {}, with sub-steps of {} ms: of what is round none, of flat faces less than "
+                "given",
+                joined("{} and {}", named),
+                f"{1000.0 * substep_s:.3g}",
+            ),
         )
 
 

@@ -43,10 +43,11 @@ def overloaded(model: Model, rest: Equilibrium, joints: Sequence[Joint]) -> np.n
     A breaking force is compared with each direction by itself, moments included, as Bullet does.
     """
     broken = force_utilisations(model, rest, joints) >= 1.0
+    sections = member_sections_of(model)
     for row, joint in enumerate(joints):
-        is_one = model.breakable & (model.joint_of_connection == row)
-        if joint.strength is not None:
-            broken[_beyond_strength(model, rest, np.flatnonzero(is_one), joint.strength)] = True
+        of_one = np.flatnonzero(model.breakable & (model.joint_of_connection == row))
+        if joint.strength is not None and len(of_one):
+            broken[_beyond_strength(model, rest, of_one, joint.strength, sections)] = True
     if model.bearings:
         whole = np.ones(len(model.connections))
         broken[model.bearings.springs.rows] = model.bearings.utilisations(loads_of(model, rest), whole > 0.0, whole) > 1
@@ -68,12 +69,14 @@ def force_utilisations(model: Model, rest: Equilibrium, joints: Sequence[Joint])
     return abs(rest.loads).max(axis=0, initial=0.0) / forces[model.joint_of_connection]
 
 
-def _beyond_strength(model: Model, rest: Equilibrium, rows: np.ndarray, strength: Strength) -> np.ndarray:
+def _beyond_strength(
+    model: Model, rest: Equilibrium, rows: np.ndarray, strength: Strength, sections: MemberSections
+) -> np.ndarray:
     """Return which connections (r,) with a strength would break first in a simulation, as indices (k,)."""
     loads = loads_of(model, rest)
     axes = section_axes(model.connections.normals[rows])
     whole, together = np.ones(len(model.connections)), np.zeros(len(model.connections), int)
-    judged = overloads_of(model, strength, member_sections_of(model))
+    judged = overloads_of(model, strength, sections)
     return judged.overloaded(rows, loads, axes, whole > 0.0, whole, together)[0]
 
 

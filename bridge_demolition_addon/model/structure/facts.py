@@ -118,14 +118,12 @@ def _breaking_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
 
 def _grades_text(steelwork: Steelwork) -> str:
     """Return the grades of all bars, with their yield strengths by thickness."""
-    strengths: dict[str, set[float]] = {}
+    grades: dict[str, set[float]] = {}
     for bar in steelwork.all_members:
-        strengths.setdefault(steelwork.grade_of(bar), set()).add(steelwork.yield_and_ultimate_pa(bar)[0])
-    named = (
-        f"{grade}, yield strength {' or '.join(f'{pa / NEWTON_PER_SQUARE_MILLIMETRE:g}' for pa in sorted(yields))} N/mm²"
-        for grade, yields in sorted(strengths.items())
-    )
-    return "; ".join(named)
+        yield_n_mm2 = steelwork.yield_and_ultimate_pa(bar)[0] / NEWTON_PER_SQUARE_MILLIMETRE
+        grades.setdefault(steelwork.grade_of(bar), set()).add(yield_n_mm2)
+    listed = ((grade, " or ".join(f"{value:g}" for value in sorted(grades[grade]))) for grade in sorted(grades))
+    return "; ".join(f"{grade}, yield strength {values} N/mm²" for grade, values in listed)
 
 
 def _piece_facts(model: Model) -> Iterator[Fact]:

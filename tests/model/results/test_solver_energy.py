@@ -65,9 +65,7 @@ def with_speeds(distance_m, *, shard_m_s=0.0, ball_m_s=0.0, made_j=1e9):
     made = np.zeros_like(hanging_chain().arrays()["made_by_solver_j"])
     made[3, 1] = made_j
     gravity = np.full(len(made), made_j if np.isnan(made_j) else 0.0)
-    return throws_of(
-        thrown(distance_m, velocities_m_s=velocities, made_by_solver_j=made, work_of_gravity_j=gravity)
-    )
+    return throws_of(thrown(distance_m, velocities_m_s=velocities, made_by_solver_j=made, work_of_gravity_j=gravity))
 
 
 def test_the_longest_toss_with_a_speed_is_not_doubtful_and_one_a_half_longer_is():
