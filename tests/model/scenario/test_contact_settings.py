@@ -180,8 +180,8 @@ def test_check_says_from_which_speed_on_a_body_bounces():
     contacts = ContactSettings(shards=ShardContact(restitution=0.25), ground=GroundContact(restitution=0.2))
     facts = dict(contact_facts(replace(I235, contacts=contacts)))
     assert facts["bounce"] == (
-        "not to be relied on below 0.67 m/s of one of 0.2 m and 3.3 m/s of one of 1 m, with sub-steps of 4.17 ms: of what "
-        "is round none, of flat faces less than given"
+        "not to be relied on below 0.67 m/s of one of 0.2 m and 3.3 m/s of one of 1 m, with sub-steps of 4.17 ms: of "
+        "what is round none, of flat faces less than given"
     )
     assert "bounce" not in dict(contact_facts(I235))
 
