@@ -269,18 +269,16 @@ def unregister() -> None:
 def _interface() -> tuple:
     # The engineering and the checks of the command line work where there is no Blender to import.
     from .simulation import blender_events
-    from .ui import registration, scene_settings
-    from .ui.comparison import decorator as comparison_decorator
+    from .ui import key_figures, registration, scene_settings, sections
+    from .ui.comparison import shown as other_run
     from .ui.contours import decorator
     from .ui.ensemble import study
     from .ui.ground import decorator as ground_decorator
-    from .ui.key_figures import decorator as figures_decorator
     from .ui.languages import tables
-    from .ui.preview import bars, run_beside, run_drawing
+    from .ui.preview import bars, run_beside
     from .ui.preview import decorator as preview_decorator
-    from .ui.scenario import undone
-    from .ui.sections import decorator as section_decorator
+    from .ui.scenario import hints
 
-    drawn = (comparison_decorator, decorator, figures_decorator, ground_decorator, section_decorator, study)
-    drawings = (module.drawing for module in (*drawn, preview_decorator, bars, run_drawing))
-    return (blender_events, tables, scene_settings, registration, run_beside, undone, *drawings)
+    drawn = (other_run, decorator, key_figures, ground_decorator, sections, study)
+    drawings = (module.drawing for module in (*drawn, preview_decorator, bars, run_beside))
+    return (blender_events, tables, scene_settings, registration, run_beside, hints, *drawings)

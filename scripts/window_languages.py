@@ -21,7 +21,7 @@ import bridge_demolition_addon
 from bridge_demolition_addon.model.schema import Table, is_optional, key_of
 from bridge_demolition_addon.ui import registration
 from bridge_demolition_addon.ui.ensemble.session import WORKS
-from bridge_demolition_addon.ui.ifc.prop import BDA_PG_ifc_element
+from bridge_demolition_addon.ui.ifc import BDA_PG_ifc_element
 from bridge_demolition_addon.ui.languages.tables import LanguageTable, table_files
 from bridge_demolition_addon.ui.scenario.key_tooltips import IN_FILE, WITH_TYPICAL, meaning_of
 from bridge_demolition_addon.ui.scenario.number_rows import MOST_ROWS, row_name

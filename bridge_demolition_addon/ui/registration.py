@@ -9,68 +9,49 @@ from types import ModuleType
 
 import bpy
 
-from . import chart_pictures, messages, modal_task, panel_groups, workspace
-from .blast import operator as blast_operator
-from .blast import ui as blast_ui
-from .comparison import operator as comparison_operator
+from . import blast, chart_pictures, ifc, messages, modal_task, sections, stages, workspace
 from .comparison import ui as comparison_ui
-from .contours import operator as contour_operator
 from .contours import ui as contour_ui
 from .contours import view as contour_view
 from .ensemble import optimise, search, study
 from .ensemble import session as ensemble_session
-from .ground import operator as ground_operator
 from .ground import ui as ground_ui
-from .ifc import operator as ifc_operator
-from .ifc import ui as ifc_ui
 from .languages.words import in_own_context
-from .preview import gizmos
-from .preview import operator as preview_operator
-from .recording import beside, paths, run, session
+from .preview import handles
 from .recording import operator as recording_operator
+from .recording import session
 from .recording import ui as recording_ui
 from .results import operator as results_operator
-from .results import placed, shown_run
+from .results import shown_run
 from .results import ui as results_ui
 from .scenario import hints, number_rows, preset_menu, table_list, user_meshes
 from .scenario import operator as scenario_operator
-from .scenario import stability as scenario_stability
 from .scenario import ui as scenario_ui
-from .sections import operator as section_operator
-from .sections import ui as section_ui
-from .stages import operator as stages_operator
-from .stages import shown as shown_stages
-from .stages import ui as stages_ui
 
-_OPERATORS = (
-    *(scenario_operator, ifc_operator, preset_menu, number_rows, messages, hints, workspace, chart_pictures),
-    *(user_meshes, table_list, scenario_stability),
-    *(recording_operator, run, beside, paths, blast_operator, contour_operator, ground_operator),
-    *(results_operator, stages_operator, preview_operator, gizmos, comparison_operator, section_operator),
+_MODULES = (
+    *(scenario_operator, preset_menu, number_rows, messages, hints, workspace, chart_pictures, user_meshes, table_list),
+    *(recording_operator, session, results_operator, handles, scenario_ui, ifc, blast, recording_ui, contour_ui),
+    *(ground_ui, results_ui, stages, comparison_ui, sections, study, search, optimise),
 )
-_PANELS = (
-    *(panel_groups, scenario_ui, ifc_ui, blast_ui, recording_ui, contour_ui, ground_ui, results_ui, stages_ui),
-    *(comparison_ui, section_ui, study, search, optimise),
-)
-"""Where they stand in the tab is in `panel_places`."""
+"""Where their panels stand in the tab is in `panel_places`."""
 
 
 def classes_of(module: ModuleType) -> tuple[type, ...]:
-    """Return the classes that a module has for Blender, in their order."""
-    ours = (item for name, item in vars(module).items() if name.startswith("BDA_"))
+    """Return the classes that a module has for Blender, but groups of settings, which go with the scene."""
+    ours = (item for name, item in vars(module).items() if name.startswith("BDA_") and not name.startswith("BDA_PG_"))
     return tuple(cls for cls in ours if cls.__module__ == module.__name__)
 
 
 @cache
 def classes() -> tuple[type, ...]:
     """Return all classes; a panel comes after the one that it stands in."""
-    drawn = [cls for module in _PANELS for cls in classes_of(module)]
-    panels = [*(cls for cls in drawn if issubclass(cls, bpy.types.Panel)), *scenario_ui.table_panels()]
-    return (
-        *(cls for module in _OPERATORS for cls in classes_of(module)),
-        *(cls for cls in drawn if not issubclass(cls, bpy.types.Panel)),
-        *outer_first(panels),
-    )
+    found = [cls for module in _MODULES for cls in classes_of(module)]
+    panels = [*filter(_is_panel, found), *scenario_ui.table_panels()]
+    return (*(cls for cls in found if not _is_panel(cls)), *outer_first(panels))
+
+
+def _is_panel(cls: type) -> bool:
+    return issubclass(cls, bpy.types.Panel)
 
 
 def outer_first(panels: Sequence[type[bpy.types.Panel]]) -> list[type[bpy.types.Panel]]:
@@ -95,16 +76,16 @@ def register() -> None:
 def unregister() -> None:
     """End a run, recording, study or search that goes on, and unregister all classes."""
     ensemble_session.unregister()
-    shown_stages.unregister()
+    stages.unregister()
     modal_task.unregister()
     workspace.unregister()
-    beside.unregister()
+    recording_ui.unregister()
     session.unregister()
-    ground_operator.unregister()
+    ground_ui.unregister()
     for cls in reversed(classes()):
         bpy.utils.unregister_class(cls)
     preset_menu.unregister()
     shown_run.forget_shown()
     messages.clear_all()
-    placed.unregister()
+    shown_run.unregister()
     contour_view.unregister()

@@ -4,22 +4,22 @@ import bpy
 from bpy.props import BoolProperty, PointerProperty, StringProperty
 
 from ..model.scenario import Scenario
-from .blast.prop import ChargeProperties
-from .comparison.prop import ComparisonProperties
-from .contours.prop import ContourProperties
-from .ensemble.prop import EnsembleProperties, read_earlier_files
-from .ground.prop import GroundProperties
-from .ifc.prop import BDA_PG_ifc_element, IfcProperties
-from .key_figures.prop import KeyFigureProperties
+from .blast import ChargeProperties
+from .comparison.ui import ComparisonProperties
+from .contours.view import ContourProperties
+from .ensemble.panel import EnsembleProperties, read_earlier_files
+from .ground.decorator import GroundProperties
+from .ifc import BDA_PG_ifc_element, IfcProperties
+from .key_figures import KeyFigureProperties
 from .languages.words import in_own_context
-from .preview.prop import PreviewRunProperties
-from .results.report_language import ReportProperties
+from .preview.run_beside import PreviewRunProperties
+from .results.operator import ReportProperties
 from .scenario import prop as scenario_properties
 from .scenario.earlier import mark_defaults, read_earlier_bodies, read_earlier_defaults, read_earlier_keys
 from .scenario.preset_menu import PresetProperties
-from .sections.prop import SectionProperties
+from .sections import SectionProperties
 from .sidebar import path_property, tooltip
-from .stages.shown import StageProperties
+from .stages import StageProperties
 from .viewport import redraw_views
 
 _READERS = (read_earlier_files, read_earlier_keys, read_earlier_bodies, read_earlier_defaults)

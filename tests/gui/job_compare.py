@@ -56,7 +56,7 @@ def figures(person: Person, panels: Panels) -> Steps:
     yield from person.picture("figures")
     changed = share_changed(person, "no_figures", "figures")
     person.note(f"key figures change {changed:.1%} of the window", "" if changed > LEAST_CHANGED else "they are hidden")
-    shown = module("ui.key_figures.shown")
+    shown = module("ui.key_figures")
     at_end = shown.in_view(bpy.context)
     scene.frame_set(scene.frame_start + 10)
     shard = next(body for body in scene.rigidbody_world.collection.objects if body.name.startswith("Shard"))
@@ -67,7 +67,7 @@ def figures(person: Person, panels: Panels) -> Steps:
     then = shown.in_view(bpy.context)
     person.expect("they follow the timeline", then.lines != at_end.lines)
     person.expect("the force is that on the selected shard", then.force_text.startswith(f"{shard.name}: "))
-    person.expect("nothing fails to be drawn", module("ui.key_figures.decorator").drawing.error, "")
+    person.expect("nothing fails to be drawn", module("ui.key_figures").drawing.error, "")
     shard.select_set(False)
     scene.bda.figures_in_view, scene.bda.scenario.use_exclusion = False, False
     scene.frame_set(scene.frame_end)
@@ -90,7 +90,7 @@ def compare(person: Person, panels: Panels, first) -> Steps:
     person.note(
         f"another run changes {changed:.1%} of the window", "" if changed > LEAST_CHANGED else "it is not to be seen"
     )
-    person.expect("nothing fails to be drawn", module("ui.comparison.decorator").drawing.error, "")
+    person.expect("nothing fails to be drawn", module("ui.comparison.shown").drawing.error, "")
     shown = module("ui.comparison.shown")
     here = shown.drawn_run(person.scene)
     person.expect("it stands beside this run", settings.compared_shift_m > 4.0 and not here.is_over)
@@ -145,13 +145,13 @@ def section(person: Person, panels: Panels, second) -> Steps:
     yield from person.picture("section")
     changed = share_changed(person, "no_section", "section")
     person.note(f"the section changes {changed:.2%} of the window", "" if changed > 0.001 else "it is not to be seen")
-    cut = module("ui.sections.decorator").section_of(person.scene)
+    cut = module("ui.sections").section_of(person.scene)
     person.expect("the pile lies where it is cut", farthest_from_record(person) < SAME_M)
     person.expect("debris is cut", cut.debris_area_m2 > 0.1 and cut.debris_height_m > 0.1)
     yield from person.click("bda.look_at_section")
     yield 1.5
     yield from person.picture("section_from_before")
-    person.expect("nothing fails to be drawn", module("ui.sections.decorator").drawing.error, "")
+    person.expect("nothing fails to be drawn", module("ui.sections").drawing.error, "")
     yield from person.click("bda.write_section")
     yield 1.0
     person.expect_reports("the files are reported", "section_across_4m.svg")

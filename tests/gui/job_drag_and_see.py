@@ -57,7 +57,7 @@ def steps(person: Person) -> Steps:
     yield from drag_charge(person)
     yield from drag_zone(person)
     yield from switch_off(person)
-    person.expect("all was drawn", module("ui.preview.run_drawing").drawing.error, "")
+    person.expect("all was drawn", module("ui.preview.run_beside").drawing.error, "")
     person.take_reports()
 
 
@@ -185,4 +185,4 @@ def is_over() -> bool:
 
 
 def sentences() -> list[str]:
-    return list(module("ui.preview.run_drawing").sentences())
+    return list(module("ui.preview.run_beside").sentences())

@@ -49,7 +49,7 @@ def choose_by_picture(person: Person) -> Steps:
 
 def run_beside(person: Person, panels: Panels) -> Steps:
     """Run Beside, and work on meanwhile: results are shown when it is over."""
-    beside = module("ui.recording.beside").runs_beside
+    beside = module("ui.recording.ui").runs_beside
     yield from panels.show_only("Run")
     yield from person.fill_in("output_directory", str(person.folder / "beside"))
     yield from person.click("pictures_of_run")

@@ -116,7 +116,7 @@ def another_bridge(person: Person, folder: Path) -> Steps:
 
 def stop_a_run_beside(person: Person, panels: Panels) -> Steps:
     """Change a value, and stop the run beside that is of it: what it has is shown as that of Run."""
-    folder, runs = person.folder / "beside", module("ui.recording.beside").runs_beside
+    folder, runs = person.folder / "beside", module("ui.recording.ui").runs_beside
     person.scene.bda.output_directory = str(folder)
     person.scene.bda.scenario.bridge.deck.thickness_m += 0.1
     person.scene.bda.scenario.time.duration_s = 60.0
@@ -135,6 +135,6 @@ def stop_a_run_beside(person: Person, panels: Panels) -> Steps:
 def nothing_built(person: Person) -> Steps:
     """Press A and Delete: nothing stands and nothing runs."""
     yield from delete_all(person)
-    person.expect("nothing stands", module("ui.scenario.stability").draws_verdict(person.scene), False)
+    person.expect("nothing stands", module("ui.scenario.hints").draws_verdict(person.scene), False)
     person.expect("Run says why it is greyed", "Nothing is left of what was built" in person.refusal("bda.run"))
     yield from person.picture("nothing_left")

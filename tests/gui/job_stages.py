@@ -41,7 +41,7 @@ def check_stages(person: Person) -> Steps:
     pulse = Pulse()
     yield 0.5
     yield from person.picture("checking")
-    found = module("ui.stages.shown")
+    found = module("ui.stages")
     yield from person.wait_for("the stages are there", lambda: found.checked_in(person.scene) is not None, STAGES_S)
     pulse.stop()
     for what, waits in pulse.waits().items():

@@ -7,7 +7,7 @@ import time
 import pytest
 
 from bridge_demolition_addon.errors import OutputError
-from bridge_demolition_addon.ui.stepped_thread import SteppedThread
+from bridge_demolition_addon.ui.modal_task import SteppedThread
 
 PARTS = 4
 

@@ -1,9 +1,10 @@
-"""The other run that is shown beside the scene's own: its surfaces, where they are now, and their colours."""
+"""Another run that is shown beside the scene's own: surfaces, key figures, and their drawing in the 3D view."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 import bpy
 import numpy as np
@@ -12,16 +13,111 @@ from ...display.colour_scale import colours
 from ...display.contour_quantities import ContourQuantity
 from ...display.contours import ContourSeries
 from ...display.moved_surfaces import MovedSurfaces
+from ...engineering.unit_systems import UnitSystem
 from ...errors import DemolitionError, OutputError
 from ...exports.shapes import body_meshes
 from ...model.debris.footprint import footprint
-from ...model.results.arrays import load_results
+from ...model.debris.throws import debris_of
+from ...model.results.arrays import load_results, results_in
 from ...model.run_folder.summary import read_summary
+from ...report.findings import IMPACT, Finding, findings
+from ...report.run_folder import read_run
 from ...scene.time_scale import simulated_time_s
 from ...scene.world import FIRST_STEP_FRAME
 from ...simulation.blender_events import contours_of, shown_results
-from ..ground.areas import plan_of
-from . import figures
+from ..ground.decorator import plan_of
+from ..languages.words import translated
+from ..results import shown_run
+from ..scene_units import area_text, length_text, mass_text, units_of_texts
+from ..view_drawing import ViewDrawing, draw_triangles, write_at
+
+_KG_PER_T = 1000.0
+
+_HEADS = {
+    IMPACT: "Impact of the ball",
+    "Connections cracked, held by bars": "Cracked, held by bars",
+    "Connections torn": "Connections torn",
+    "Progress of the collapse": "Progress of the collapse",
+    "All shards at rest from": "At rest from",
+    "Debris": "Debris",
+    "Footprint of the debris": "Area of the debris",
+    "Height of the pile": "Height of the pile",
+    "95 % of the debris's mass thrown up to": "95 % thrown up to",
+    "Largest throw": "Largest throw",
+    "Debris beyond the bridge's outline, at most": "Debris distance",
+    "Largest load on a shard": "Largest load on a shard",
+}
+"""Names in the panel, by those in a report."""
+
+_kept: dict[Path, tuple[int | None, list[Finding]]] = {}
+"""Findings by folder, with the time at which the results were written that they are of."""
+
+
+class FigureRow(NamedTuple):
+    """A figure of both runs as texts."""
+
+    name: str
+    this: str
+    other: str
+
+
+def figure_rows(this: Path | None, other: Path) -> list[FigureRow]:
+    """Return the key figures of two runs by their folders, without those that neither has.
+
+    Of this one nothing is known where there is no folder yet. A folder that holds no results raises OutputError.
+    """
+    of_other = findings_of(other)
+    of_this = findings_of(this) if this else [None] * len(of_other)
+    rows = []
+    for mine, theirs in zip(of_this, of_other, strict=True):
+        if theirs.value is not None or (mine and mine.value is not None):
+            rows.append(FigureRow(translated(_HEADS[theirs.label]), figure_text(mine), figure_text(theirs)))
+    return rows
+
+
+def findings_of(folder: Path) -> list[Finding]:
+    """Return the findings of a run, worked out once."""
+    written = written_at(folder)
+    if folder not in _kept or _kept[folder][0] != written:
+        run = read_run(folder)
+        if run.results is None:
+            raise OutputError(f"{folder}: {' '.join(run.shortcomings)}")
+        _kept[folder] = written, findings(run, debris_of(run.recorded))
+    return _kept[folder][1]
+
+
+def written_at(folder: Path) -> int | None:
+    """Return when the results in a folder were written, in ns since 1970; None where there are none."""
+    try:
+        return results_in(folder).stat().st_mtime_ns
+    except OSError:
+        return None
+
+
+def figure_text(finding: Finding | None) -> str:
+    """Return a figure with its unit, in the units of the scene; a dash where it is not known."""
+    if finding is None or finding.value is None:
+        return "-"
+    value = finding.value
+    match finding.unit:
+        case "m":
+            return length_text(value, ".2f")
+        case "m²":
+            return area_text(value, ".0f")
+        case "t":
+            return mass_text(value * _KG_PER_T) if units_of_texts() is UnitSystem.IMPERIAL else f"{value:.1f} t"
+        case "1":
+            return f"{value:.0f}"
+        case "s":
+            return f"{value:.2f} s"
+        case unit:
+            return f"{value:.0f} {unit}"
+
+
+def forget_figures() -> None:
+    """Forget all findings."""
+    _kept.clear()
+
 
 _COLOUR = (0.95, 0.62, 0.30)
 _OPACITY_OVER = 0.45
@@ -86,7 +182,7 @@ def other_run(scene: bpy.types.Scene) -> OtherRun | None:
     if not scene.bda.compared_folder:
         return None
     folder = Path(scene.bda.compared_folder)
-    written = figures.written_at(folder)
+    written = written_at(folder)
     if folder not in _read or _read[folder][0] != written:
         _read.clear()
         _placed.clear()
@@ -104,7 +200,7 @@ def forget() -> None:
     """Forget the run that was read, and its figures."""
     _read.clear()
     _placed.clear()
-    figures.forget()
+    forget_figures()
 
 
 def shift_beside(scene: bpy.types.Scene, run: OtherRun) -> float:
@@ -167,3 +263,30 @@ def _title_of(folder: Path) -> str:
         return str(read_summary(folder).values["title"])
     except (DemolitionError, OSError, ValueError, KeyError):  # a run that was killed has no summary
         return folder.name
+
+
+_texts: list[tuple[tuple[float, float, float], str]] = []
+"""Position, m, and text of the view that is drawn now."""
+
+
+def _draw_in_space(context: bpy.types.Context) -> None:
+    _texts.clear()
+    shown_run.follow_later(context.scene)
+    run = drawn_run(context.scene)
+    if run is None:
+        return
+    draw_triangles(run.triangles, run.colours, solid=not run.is_over)
+    _texts.append((run.position_m, run.text))
+
+
+def _draw_on_screen(context: bpy.types.Context) -> None:
+    for position, text in _texts:
+        write_at(context, position, text)
+
+
+def _forget() -> None:
+    _texts.clear()
+    forget()
+
+
+drawing = ViewDrawing(_draw_in_space, _draw_on_screen, forget=_forget)

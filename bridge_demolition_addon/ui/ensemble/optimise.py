@@ -14,8 +14,7 @@ from ..scenario.prop import shown_tables
 from ..scenario.ui import draw_tables
 from ..scenario.values import scenario_of
 from ..sidebar import SidebarPanel
-from .operator import LoadEnsemble, OpenPicture, StartEnsemble, StopEnsemble, with_shared
-from .panel import OneValuePanel, draw_own_keys
+from .panel import LoadEnsemble, OneValuePanel, OpenPicture, StartEnsemble, StopEnsemble, draw_own_keys, with_shared
 from .session import WORKS, SentencesAndPicture, Work
 
 _TABLES = {item.name: item for item in shown_tables(OptimiseSettings)}

@@ -11,9 +11,18 @@ from ...model.study.files import CURVE_PICTURE
 from ...report.wording.search import search_sentences
 from ...studies.session import EnsembleSession
 from ..scenario.values import scenario_of
-from .operator import LoadEnsemble, OpenPicture, StartEnsemble, StopEnsemble, with_shared
-from .panel import OneValuePanel, draw_own_keys
-from .prop import ANOTHER_KEY, CHARGES, KEYS
+from .panel import (
+    ANOTHER_KEY,
+    CHARGES,
+    KEYS,
+    LoadEnsemble,
+    OneValuePanel,
+    OpenPicture,
+    StartEnsemble,
+    StopEnsemble,
+    draw_own_keys,
+    with_shared,
+)
 from .session import WORKS, SentencesAndPicture, Work
 
 _QUANTITY = ("key", "factor", "logarithmic")

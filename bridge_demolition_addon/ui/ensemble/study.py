@@ -25,8 +25,7 @@ from ..scenario.values import scenario_of, table_of
 from ..sidebar import SidebarPanel, draw_sentence
 from ..view_drawing import ViewDrawing, draw_lines, draw_triangles
 from ..viewport import redraw_views
-from .operator import EnsembleAction, LoadEnsemble, StartEnsemble, StopEnsemble
-from .panel import EnsemblePanel, draw_whose_result
+from .panel import EnsembleAction, EnsemblePanel, LoadEnsemble, StartEnsemble, StopEnsemble, draw_whose_result
 from .session import WORKS, Work
 
 _LIMIT_COLOUR = (1.0, 0.2, 0.2, 1.0)

@@ -3,28 +3,231 @@
 Nothing here changes any data, and nothing raises: the sidebar says what cannot be drawn.
 """
 
-from __future__ import annotations
-
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from typing import Any
 
 import bpy
 import numpy as np
+from bpy.props import EnumProperty, FloatProperty, FloatVectorProperty, IntProperty
 from manifold3d import CrossSection
 
-from ...display.ground_lines import cross_lines, draped, flash_lines, flash_share, outline_lines, way_lines, zone_lines
+from ...display.ground_lines import (
+    cross_lines,
+    distance_rings,
+    draped,
+    flash_lines,
+    flash_share,
+    outline_lines,
+    planned_zone,
+    way_lines,
+    zone_lines,
+)
 from ...display.zone_boxes import box_lines, delay_colours, hole_lines
-from ...engineering.geometry.plan_areas import outlines
+from ...engineering.geometry.plan_areas import outlines, united
+from ...engineering.geometry.vectors import transformed
+from ...engineering.terrain.recorded import RecordedGround
+from ...errors import GeometryError, ScenarioError
+from ...model.bridge.preparation import prepared_members
+from ...model.debris.exclusion import ExclusionZone, exclusion_zone
+from ...model.debris.footprint import footprint
+from ...model.results.arrays import Results
+from ...model.scenario import BlastZone, Exclusion
+from ...model.scenario.file import scenario_from_text
+from ...model.structure.blast_zones import PlacedZone, placed_zones
 from ...scene.blast.charges import blast_of, charges_of
-from ...scene.bodies import Kind, kind_of
+from ...scene.bodies import Kind, bodies_of, is_uneven_ground, kind_of, triangle_mesh
+from ...scene.rendering.ground import ground_of as ground_in
 from ...scene.time_scale import simulated_time_s
 from ...scene.world import FIRST_STEP_FRAME
+from ...simulation.blender_events import shown_results
 from ..languages.words import translated
+from ..preview.zone_handles import zones_shown
 from ..scenario.built import shown_site
 from ..scene_units import area_text, length_text
+from ..sidebar import path_property
 from ..view_drawing import ViewDrawing, draw_lines, write_at
-from . import areas
-from .prop import BLAST_ZONES, DEBRIS, EXCLUSION, FLASHES, NAMES, NEIGHBOURS, RINGS, WAY, ZONES
+from ..viewport import redraw_views
+
+EXCLUSION, ZONES, DEBRIS, RINGS = "EXCLUSION", "ZONES", "DEBRIS", "RINGS"
+NEIGHBOURS, WAY, FLASHES, NAMES = "NEIGHBOURS", "WAY", "FLASHES", "NAMES"
+BLAST_ZONES = "BLAST_ZONES"
+_OVERLAYS = (
+    (EXCLUSION, "Exclusion Zone", "The exclusion zone: of the last run, or as it is planned before there is one"),
+    (ZONES, "Zones", "The zones of Scenario, with their names"),
+    (DEBRIS, "Debris", "What the debris of the last run covers when it ends"),
+    (RINGS, "Distances", "How far from the plan of the bridge the ground is"),
+    (NEIGHBOURS, "Neighbours", "The neighbours of Scenario, with their names"),
+    (WAY, "Path of Ball", "The path of the ball in the last run"),
+    (FLASHES, "Flashes", "A flash where a charge goes off"),
+    (NAMES, "Chosen Shard", "Outline and name of the body that is selected"),
+    (BLAST_ZONES, "Blast Zones", "Blast zones with their drill holes, coloured by their delays, until they fire"),
+)
+
+
+class GroundProperties:
+    """Part of the settings of a scene."""
+
+    overlays: EnumProperty(
+        name="Show",
+        description="What is drawn on the ground and in the air of the 3D view",
+        items=_OVERLAYS,
+        options={"ENUM_FLAG"},
+        default={ZONES, NEIGHBOURS, FLASHES, NAMES, BLAST_ZONES},
+        update=redraw_views,
+    )
+    distance_spacing_m: FloatProperty(
+        name="Every",
+        description="Distance from ring to ring, such as 10 m",
+        default=10.0,
+        min=0.5,
+        max=1000.0,
+        unit="LENGTH",
+        update=redraw_views,
+    )
+    distance_count: IntProperty(
+        name="Rings", description="How many rings of distance, such as 5", default=5, min=1, max=20, update=redraw_views
+    )
+    plan_picture: path_property("Site Plan", "Picture of a site plan, or one from the air, to lie under the bridge")
+    plan_width_m: FloatProperty(
+        name="Width",
+        description="Width of the picture on the ground, such as 200 m",
+        default=200.0,
+        min=1.0,
+        max=1e5,
+        unit="LENGTH",
+    )
+    plan_bearing_deg: FloatProperty(
+        name="Bearing",
+        description="Direction of the road's x axis, clockwise from the upward direction of the picture: 90° for a "
+        "picture with north up and a road from west to east",
+        default=90.0,
+        min=-360.0,
+        max=360.0,
+    )
+    plan_origin: FloatVectorProperty(
+        name="Origin",
+        description="Where the origin of the scenario lies in the picture, from its left and from its foot: 0.5 and "
+        "0.5 for its middle",
+        size=2,
+        default=(0.5, 0.5),
+        min=-10.0,
+        max=10.0,
+    )
+
+
+_kept: dict[str, tuple[tuple, Any]] = {}
+"""Results that were worked out last, with the keys that they depend on."""
+
+
+def forget() -> None:
+    """Forget these results."""
+    _kept.clear()
+
+
+def results_of(scene: bpy.types.Scene) -> Results | None:
+    """Return the results that are shown in a scene; None where there are none, and while a run goes on."""
+    return shown_results(scene).results
+
+
+def plan_of(scene: bpy.types.Scene) -> CrossSection | None:
+    """Return the area that the bridge covers in plan at first; None where there is no bridge."""
+    results = results_of(scene)
+    if results is not None and len(results.inventory.of_kind("shard")):
+        return _cached("plan", _key(scene), lambda: footprint(results, results.inventory.of_kind("shard"), 0))
+    world = scene.rigidbody_world
+    if not world or not world.collection:
+        return None
+    shards = [body for body in bodies_of(scene) if kind_of(body) == Kind.SHARD]
+    key = (scene.session_uid, len(shards), scene.bda.built_scenario)
+    return _cached("plan", key, lambda: _plan_as_built(shards)) if shards else None
+
+
+def rings_of(scene: bpy.types.Scene, spacing_m: float, number: int) -> list[tuple[float, np.ndarray]]:
+    """Return rings of distance around the plan, as `distance_rings` does; none without a bridge."""
+    plan = plan_of(scene)
+    if plan is None:
+        return []
+    return _cached("rings", (_kept["plan"][0], spacing_m, number), lambda: distance_rings(plan, spacing_m, number))
+
+
+def debris_of(scene: bpy.types.Scene) -> CrossSection | None:
+    """Return the area that shards cover in plan when the last run ends; None without a run."""
+    results = results_of(scene)
+    if results is None or not len(shards := results.inventory.of_kind("shard")):
+        return None
+    return _cached("debris", _key(scene), lambda: footprint(results, shards, len(results.frames) - 1))
+
+
+def zone_of(scene: bpy.types.Scene, settings: Exclusion) -> ExclusionZone | None:
+    """Return the exclusion zone of the last run, or the planned one before a run; None without a bridge."""
+    results, plan = results_of(scene), plan_of(scene)
+    if plan is None:
+        return None
+    if results is None or not len(results.inventory.of_kind("shard")):
+        return planned_zone(plan, settings)
+    return _cached("zone", (*_key(scene), settings), lambda: exclusion_zone(results, settings))
+
+
+def blast_zones_of(scene: bpy.types.Scene) -> tuple[PlacedZone, ...]:
+    """Return the blast zones that a scene was built with; none where their members are not known any more."""
+    text = scene.bda.built_scenario
+    if f"[[{BlastZone.table}]]" not in text:
+        return ()
+
+    def placed() -> tuple[PlacedZone, ...]:
+        try:
+            scenario = scenario_from_text(text)
+            return placed_zones(scenario, prepared_members(scenario).members)
+        except (GeometryError, ScenarioError):
+            return ()
+
+    return _cached("blast zones", (text,), placed)
+
+
+def planned_blast_zones_of(scene: bpy.types.Scene) -> tuple[PlacedZone, ...]:
+    """Return the blast zones that the panels show, where they lie in their members; none where that is not known."""
+    try:
+        return tuple(placed for placed in zones_shown(scene.bda) if placed is not None)
+    except (GeometryError, ScenarioError):
+        return ()
+
+
+def ground_of(scene: bpy.types.Scene) -> RecordedGround:
+    """Return the ground of a scene, as it was built."""
+    world = scene.rigidbody_world
+    bodies = bodies_of(scene) if world and world.collection else []
+    built = [(body.name, len(body.data.vertices)) for body in bodies if is_uneven_ground(body)]
+    key = (scene.session_uid, tuple(built), scene.bda.built_scenario)
+    return _cached("ground", key, lambda: ground_in(scene))
+
+
+def path_of_ball(scene: bpy.types.Scene) -> list[np.ndarray]:
+    """Return the positions (k, 3) float, m, of each ball of the last run."""
+    results = results_of(scene)
+    if results is None:
+        return []
+    return [np.asarray(results.frames.positions_m[:, ball], float) for ball in results.inventory.of_kind("ball")]
+
+
+def _key(scene: bpy.types.Scene) -> tuple[int, int]:
+    return scene.session_uid, shown_results(scene).number
+
+
+def _plan_as_built(shards: list[bpy.types.Object]) -> CrossSection:
+    plans = []
+    for shard in shards:
+        matrix = np.array(shard.matrix_basis, float)
+        corners = transformed(matrix[:3, :3], triangle_mesh(shard.data).vertices) + matrix[:3, 3]
+        plans.append(CrossSection.hull_points(corners[:, :2]))
+    return united(plans)
+
+
+def _cached(name: str, key: tuple, work_out: Callable[[], Any]) -> Any:
+    if name not in _kept or _kept[name][0] != key:
+        _kept[name] = (key, work_out())
+    return _kept[name][1]
+
 
 _COLOURS = {
     EXCLUSION: (1.0, 0.15, 0.1, 1.0),
@@ -70,7 +273,7 @@ def drawn(scene: bpy.types.Scene, layer: bpy.types.ViewLayer) -> Iterator[Drawn]
         if name not in scene.bda.overlays:
             continue
         for part in parts(scene, layer):
-            yield replace(part, lines=draped(part.lines, areas.ground_of(scene))) if name in _ON_GROUND else part
+            yield replace(part, lines=draped(part.lines, ground_of(scene))) if name in _ON_GROUND else part
 
 
 def _zones(scene: bpy.types.Scene, _layer: bpy.types.ViewLayer) -> Iterator[Drawn]:
@@ -89,25 +292,25 @@ def _neighbours(scene: bpy.types.Scene, _layer: bpy.types.ViewLayer) -> Iterator
 
 def _exclusion(scene: bpy.types.Scene, _layer: bpy.types.ViewLayer) -> Iterator[Drawn]:
     settings = shown_site(scene.bda)["exclusion"]
-    zone = areas.zone_of(scene, settings) if settings else None
+    zone = zone_of(scene, settings) if settings else None
     if zone is not None:
-        is_run = areas.results_of(scene) is not None
+        is_run = results_of(scene) is not None
         text = "Exclusion zone of the last run" if is_run else "Exclusion zone as planned, without debris"
         yield _outlined(zone.whole, EXCLUSION, translated(text))
 
 
 def _debris(scene: bpy.types.Scene, _layer: bpy.types.ViewLayer) -> Iterator[Drawn]:
-    if (area := areas.debris_of(scene)) is not None:
+    if (area := debris_of(scene)) is not None:
         yield _outlined(area, DEBRIS, translated("Debris: {}").format(area_text(area.area(), ".0f")))
 
 
 def _rings(scene: bpy.types.Scene, _layer: bpy.types.ViewLayer) -> Iterator[Drawn]:
-    for distance, lines in areas.rings_of(scene, scene.bda.distance_spacing_m, scene.bda.distance_count):
+    for distance, lines in rings_of(scene, scene.bda.distance_spacing_m, scene.bda.distance_count):
         yield Drawn(lines, _COLOURS[RINGS], 1.0, length_text(distance, "g"), tuple(lines[int(lines[:, 0].argmax())]))
 
 
 def _path(scene: bpy.types.Scene, _layer: bpy.types.ViewLayer) -> Iterator[Drawn]:
-    for positions in areas.path_of_ball(scene):
+    for positions in path_of_ball(scene):
         yield Drawn(way_lines(positions), _COLOURS[WAY], _WIDTHS_PX[WAY])
 
 
@@ -130,7 +333,7 @@ def _blast_zones(scene: bpy.types.Scene, _layer: bpy.types.ViewLayer) -> Iterato
     """
     start_s = blast_of(scene).start_s
     now_s = simulated_time_s(scene, FIRST_STEP_FRAME) if scene.rigidbody_world else 0.0
-    zones = areas.blast_zones_of(scene) if now_s > 0.0 else areas.planned_blast_zones_of(scene)
+    zones = blast_zones_of(scene) if now_s > 0.0 else planned_blast_zones_of(scene)
     for placed, colour in zip(zones, delay_colours(zones).tolist(), strict=True):
         zone = placed.zone
         fires_s = zone.row_times_s()[-1] + start_s
@@ -197,4 +400,4 @@ def _draw_texts(context: bpy.types.Context) -> None:
         write_at(context, position, text)
 
 
-drawing = ViewDrawing(_draw_lines, _draw_texts, forget=areas.forget)
+drawing = ViewDrawing(_draw_lines, _draw_texts, forget=forget)

@@ -1,4 +1,7 @@
-"""The run whose results the panels show: the last recording, or the run that an opened file was saved with."""
+"""The run whose results the panels show: the last recording, or the run that an opened file was saved with.
+
+Blender forgets the frames that it played with many a change, and would show the bridge as it was built beside a pile.
+"""
 
 from __future__ import annotations
 
@@ -18,11 +21,26 @@ from ...model.run_folder.files import SUMMARY_FILE
 from ...model.run_folder.summary import RunSummary, read_summary
 from ...model.sequence.ending import doubts_of_run
 from ...model.stages.stability import STANDS, stability_texts
+from ...simulation.blender_events import contours_of, shown_results
 from ...simulation.kept_run import digest_of_run, folder_of_run, has_run, results_of_run
-from ..connection_counts import counts_line
 from ..languages.words import translated
 from ..recording.session import last_recording, last_recording_of
 from ..scene_units import length_text, mass_text, units_of_texts
+
+
+def counts_line(counts: ConnectionCounts) -> str:
+    """Return the line, as `ConnectionCounts.text` has it."""
+    count = counts.connections
+    if counts.cracked is None:
+        return translated("Cracked or torn: {} of {} connections").format(counts.broken, count)
+    if not counts.cracked:
+        return translated("Torn: {} of {} connections").format(counts.torn, count)
+    if counts.yielded is None:
+        text = translated("Cracked (bars hold): {}; torn: {} of {} connections")
+        return text.format(counts.cracked, counts.torn, count)
+    text = translated("Cracked (bars hold): {}, of these yielded: {}; torn: {} of {} connections")
+    return text.format(counts.cracked, counts.yielded, counts.torn, count)
+
 
 _N_PER_KN = 1000.0
 _MS_PER_S = 1000.0
@@ -197,3 +215,35 @@ def _of_file(scene: bpy.types.Scene) -> ShownRun:
         forget_shown()
         _read[name] = ShownRun.of(folder, summary, last_frame, lambda: results)
     return _read[name]
+
+
+def follow_later(scene: bpy.types.Scene) -> None:
+    """Place the bodies, or leave them to Blender, once it has finished its present drawing."""
+    if shown_results(scene).stays_placed != _is_wanted(scene) and not bpy.app.timers.is_registered(follow):
+        bpy.app.timers.register(follow, first_interval=0.0)
+
+
+def unregister() -> None:
+    """Leave all bodies to Blender."""
+    if bpy.app.timers.is_registered(follow):
+        bpy.app.timers.unregister(follow)
+    for scene in bpy.data.scenes:
+        shown_results(scene).stays_placed = False
+
+
+def _is_wanted(scene: bpy.types.Scene) -> bool:
+    settings = scene.bda
+    return settings.show_section or bool(settings.compared_folder and settings.show_compared)
+
+
+def follow() -> None:
+    """Place the bodies of all scenes, or leave them to Blender, as their settings are now."""
+    for scene in bpy.data.scenes:
+        shown = shown_results(scene)
+        if shown.stays_placed == _is_wanted(scene):
+            continue
+        shown.stays_placed = not shown.stays_placed
+        if shown.stays_placed:
+            contours_of(scene).refresh()
+        elif not contours_of(scene).is_shown:
+            shown.put_bodies_back()

@@ -6,8 +6,8 @@ import bpy
 
 from ...errors import OutputError
 from ...simulation.kept_run import has_run
-from ..key_figures import decorator as figures_in_view
-from ..key_figures.shown import peak_of_selected
+from .. import key_figures as figures_in_view
+from ..key_figures import peak_of_selected
 from ..languages.words import translated
 from ..recording.session import last_recording
 from ..sidebar import SidebarPanel, draw_of_one_cut, draw_sentence

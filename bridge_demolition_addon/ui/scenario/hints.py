@@ -1,22 +1,35 @@
-"""Help in the sidebar: how to begin, the next step, and a note on what breaks the connections."""
+"""Sentences on the scenario in the sidebar: how to begin, the next step, whether it stands, what undo has done.
+
+Undo makes another world of rigid bodies, which knows no frame but its first: going on from the middle would crash
+Blender, so `simulation.crash_guards.safe_undo` goes back.
+"""
 
 from __future__ import annotations
 
 from pathlib import Path
 
 import bpy
+from bpy.app.handlers import persistent
 
+from ...errors import DemolitionError
 from ...model.scenario.connections import LARGE_MODEL, MATERIAL_OF_LARGE_MODELS
 from ...model.scenario.contacts import QUANTITIES
 from ...model.scenario.joint_settings import STRENGTH_KEYS
-from ...simulation.blender_events import running_recording
+from ...model.sequence.checked_model import checked_model
+from ...model.stages.stability import COMES_DOWN, STANDS, Stability
+from ...model.stages.stability_by_statics import stability_of
+from ...scene.as_built import has_all_bodies
+from ...scene.stability import keep_stability, kept_stability
+from ...simulation.blender_events import running_recording, shown_results
 from ...simulation.kept_run import has_run
 from ..languages.words import translated
-from ..operators import Action
+from ..operators import Action, recording_runs, unset
 from ..results.operator import open_path
 from ..sidebar import draw_sentence
+from ..stages import show_checked
 from .built import changes, is_emptied
 from .prop import USE
+from .values import scenario_of
 
 _PACKAGE = Path(__file__).parents[2]
 _PAGES = (_PACKAGE / "walkthrough" / "walkthrough.html", _PACKAGE.parent / "docs" / "walkthrough.md")
@@ -97,3 +110,100 @@ def contact_note(scenario: bpy.types.PropertyGroup) -> str:
             "shards, ground, ball and jackhammers to give pairs here"
         )
     return ""
+
+
+_ICONS = {STANDS: "CHECKMARK", COMES_DOWN: "ERROR"}
+
+
+def _has_changed(context: bpy.types.Context) -> str | None:
+    return "Values have changed since the scene was built: build it again" if changes(context.scene.bda) else None
+
+
+class BDA_OT_does_it_stand(Action, bpy.types.Operator):
+    """Work out by statics whether the bridge as it was built stands under its own weight, and its load factor"""
+
+    bl_label = "Does It Stand?"
+    blocked_by = (
+        unset("built_scenario", "Nothing is built here yet: build the scenario"),
+        recording_runs,
+        _has_changed,
+    )
+
+    def act(self, context: bpy.types.Context) -> str:
+        scenario = scenario_of(context.scene.bda)
+        stability = stability_of(scenario, checked_model(scenario))
+        keep_stability(context.scene, stability.to_json())
+        return stability.sentence
+
+
+def draws_verdict(scene: bpy.types.Scene) -> bool:
+    """Return whether there is a bridge of which a verdict can be: all that was built is still there."""
+    return bool(scene.bda.built_scenario) and has_all_bodies(scene)
+
+
+def draw_stability(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
+    """Draw the verdict that is kept with a scene that is built, and the button that works it out in full."""
+    scene = context.scene
+    if not draws_verdict(scene):
+        return
+    try:
+        kept = kept_stability(scene)
+        stability = Stability.of_json(kept) if kept else None
+    except (DemolitionError, KeyError, TypeError):  # the custom property was edited: the button writes it again
+        stability = None
+    if stability and not changes(scene.bda):
+        for text in stability.unusual:
+            draw_sentence(layout, context, text, icon="ERROR")
+        draw_sentence(layout, context, stability.sentence, icon=_ICONS.get(stability.verdict, "QUESTION"))
+        if stability.is_asleep:
+            draw_sentence(layout, context, stability.asleep_sentence, icon="INFO")
+    layout.operator("bda.does_it_stand", icon="QUESTION")
+
+
+_frames_before: dict[int, int] = {}
+"""The frame of each scene as an undo or redo begins, by the scene's number of this session."""
+
+_put_back: dict[int, int] = {}
+"""The start frame of scenes whose timeline was put there."""
+
+
+def undo_note(scene: bpy.types.Scene) -> str:
+    """Return the sentence as long as the timeline stays where undo has put it; empty otherwise."""
+    if scene.rigidbody_world and _put_back.get(scene.session_uid) == scene.frame_current:
+        if shown_results(scene).are_loaded:
+            return translated("Undo put the timeline to its start: it plays what was recorded")
+        return translated("Undo began the simulation again: the timeline is at its start, and plays as before")
+    _put_back.pop(scene.session_uid, None)
+    return ""
+
+
+@persistent
+def _before(*_: object) -> None:
+    _frames_before.clear()
+    _frames_before.update((scene.session_uid, scene.frame_current) for scene in bpy.data.scenes)
+
+
+@persistent
+def _after(*_: object) -> None:
+    for scene in bpy.data.scenes:
+        show_checked(scene)
+        world, before = scene.rigidbody_world, _frames_before.get(scene.session_uid)
+        if world and before is not None and before > scene.frame_current == world.point_cache.frame_start:
+            _put_back[scene.session_uid] = scene.frame_current
+
+
+_HANDLERS = {"undo_pre": _before, "redo_pre": _before, "undo_post": _after, "redo_post": _after}
+
+
+def register() -> None:
+    """Follow undo; to be called after the guards of the simulation, which put the timeline back."""
+    for name, handler in _HANDLERS.items():
+        getattr(bpy.app.handlers, name).append(handler)
+
+
+def unregister() -> None:
+    """Follow it no longer."""
+    for name, handler in _HANDLERS.items():
+        getattr(bpy.app.handlers, name).remove(handler)
+    _frames_before.clear()
+    _put_back.clear()

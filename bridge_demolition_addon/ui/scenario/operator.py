@@ -31,7 +31,7 @@ from ..operators import (
     write_file,
 )
 from ..preview.decorator import preview_lines
-from ..stages.shown import show_checked
+from ..stages import show_checked
 from ..viewport import bridge_box, look_at_box, look_at_bridge, look_at_other_bridge
 from .built import forget_built, is_emptied, keep_built, show_built
 from .preset_menu import described_preset, name_own_model, preset_file

@@ -1,4 +1,4 @@
-"""The panels of a scenario: one for each table, drawn from the tables' keys alone."""
+"""The panels of a scenario: the groups of the tab, and one for each table, drawn from the tables' keys alone."""
 
 from __future__ import annotations
 
@@ -14,18 +14,16 @@ from ...model.schema import Table, holds_many, is_optional, key_name, subtable_c
 from ...scene.visibility import has_symbols, symbols_are_hidden
 from ..languages.words import CONTEXT, translated
 from ..messages import draw_messages
-from ..panel_places import DEMOLITION_ADVANCED, PREFIX, parent_of
+from ..panel_places import DEMOLITION_ADVANCED, PREFIX, parent_of, tables_below
 from ..preview.bars import shown_bars
 from ..sidebar import SidebarPanel, draw_sentence, letters_of, width_of
 from ..task_progress import draw_task_progress, going_on
-from .built import ChangedValue, Kept, built_values, change_of, change_of_use, changes, changes_of_table
-from .hints import breaking_note, contact_note, draw_first_help, next_step
+from .built import ChangedValue, Kept, built_values, change_of, change_of_use, changes, changes_of_table, has_changed
+from .hints import breaking_note, contact_note, draw_first_help, draw_stability, next_step, undo_note
 from .number_rows import draw_rows, numbers_in_row, row_unit
 from .preset_menu import draw_presets
 from .prop import INDEX, USE, label_of, shown_keys, shown_tables, title_of, vector_length
-from .stability import draw_stability
 from .table_list import draw_list
-from .undone import undo_note
 
 _LABELS = {
     "bridge": "Sizes",
@@ -347,3 +345,58 @@ def _draw_inner(layout: UILayout, context: Context, group: PropertyGroup, item: 
         if not getattr(group, USE + item.name):
             return
     draw_keys(layout, context, getattr(group, item.name), subtable_class(item), kept and kept.get(item.name))
+
+
+class _Holder(SidebarPanel):
+    """Base of panels that hold others, and draw nothing themselves but a sign that a value in them has changed."""
+
+    def draw_header(self, context: bpy.types.Context) -> None:
+        """Show what a closed panel would hide."""
+        if has_changed(context.scene.bda, tables_below(type(self).__name__)):
+            self.layout.label(icon=CHANGED)
+
+    def draw(self, _context: bpy.types.Context) -> None:
+        """Draw nothing: its sub-panels have everything."""
+
+
+class BDA_PT_group_bridge(_Holder, bpy.types.Panel):
+    """The bridge by its sizes or as a model of your own, its site, and what it is made of."""
+
+    bl_label = "Bridge"
+
+
+class BDA_PT_advanced_bridge(_Holder, bpy.types.Panel):
+    """How the bridge is cut, what holds it together, and what it stands on."""
+
+    bl_label = "Advanced"
+
+
+class BDA_PT_group_demolition(_Holder, bpy.types.Panel):
+    """What brings the bridge down: ball, charges, cuts and machines, each at its time."""
+
+    bl_label = "Demolition"
+
+
+class BDA_PT_advanced_demolition(_Holder, bpy.types.Panel):
+    """Actions that few demolitions have: weakenings, tendon cuts, loads, equipment and ground motion."""
+
+    bl_label = "Advanced"
+
+
+class BDA_PT_group_run_and_results(_Holder, bpy.types.Panel):
+    """Run the demolition, look at what came of it, and make a report, pictures and films."""
+
+    bl_label = "Run and Results"
+    bl_options = set()  # open, as results come into it when a run has ended
+
+
+class BDA_PT_advanced_run_and_results(_Holder, bpy.types.Panel):
+    """Time and cameras, vectors, earlier runs, recording by hand and its files."""
+
+    bl_label = "Advanced"
+
+
+class BDA_PT_group_planning(_Holder, bpy.types.Panel):
+    """Whether the bridge stands between its stages, and many runs: studies, searches and optimisations."""
+
+    bl_label = "Planning"

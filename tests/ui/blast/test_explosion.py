@@ -9,7 +9,7 @@ from bridge_demolition_addon.model.blast.settings import BlastSettings
 from bridge_demolition_addon.model.bridge.layout import deck_top
 from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.scene.blast.charges import blast_of, charge_objects, charges_of, keep_blast
-from bridge_demolition_addon.ui.blast.operator import keep_shown_blast
+from bridge_demolition_addon.ui.blast import keep_shown_blast
 
 
 @pytest.fixture

@@ -99,7 +99,7 @@ def test_figures_of_both_are_those_of_their_reports(beside, other, tmp_path):
 
 
 def test_every_finding_has_a_name_in_the_panel(other):
-    from bridge_demolition_addon.ui.comparison.figures import figure_rows
+    from bridge_demolition_addon.ui.comparison.shown import figure_rows
 
     run = read_run(other)
     known = [finding for finding in findings(run, debris_of(run.recorded)) if finding.value is not None]
@@ -191,7 +191,7 @@ def test_removed_bodies_are_drawn_until_they_go(other):
 
 def test_bodies_stay_where_they_were_recorded_while_another_run_is_beside_them(beside, settings, tmp_path):
     """Also after a change by which Blender forgets what it played, and would show the bridge as it was built."""
-    from bridge_demolition_addon.ui.results import placed
+    from bridge_demolition_addon.ui.results import shown_run
 
     scene, results = beside.context.scene, load_results(tmp_path / "run")
     bodies = {body.name: body for body in scene.rigidbody_world.collection.objects if body.name.startswith("Shard")}
@@ -207,8 +207,8 @@ def test_bodies_stay_where_they_were_recorded_while_another_run_is_beside_them(b
     scene.frame_set(int(results.frames.number[0]))
     scene.rigidbody_world.enabled = False
     assert farthest_m() > 1.0
-    placed.follow()
+    shown_run.follow()
     assert farthest_m() < 1e-3
     beside.ops.bda.forget_compared()
-    placed.follow()
+    shown_run.follow()
     assert farthest_m() > 1.0

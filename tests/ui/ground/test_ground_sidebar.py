@@ -126,7 +126,7 @@ def test_the_chosen_shard_is_drawn_with_its_name_where_it_is(ran):
 
 def test_a_zone_by_its_corners_is_added_to_the_scenario_and_a_wrong_one_is_not(built):
     from bridge_demolition_addon.errors import ScenarioError
-    from bridge_demolition_addon.ui.ground.operator import add_zone
+    from bridge_demolition_addon.ui.ground.ui import add_zone
     from bridge_demolition_addon.ui.scenario.built import shown_site
 
     corners = [(0.0, 8.0), (12.5, 8.0), (12.5, 20.25)]

@@ -32,7 +32,7 @@ def chain(extension):
 
 
 def seen(bpy):
-    from bridge_demolition_addon.ui.key_figures.shown import in_view
+    from bridge_demolition_addon.ui.key_figures import in_view
 
     return in_view(bpy.context)
 
@@ -106,7 +106,7 @@ def test_nothing_is_drawn_where_it_is_not_asked_for_or_there_is_no_run(chain):
 
 
 def test_it_is_off_at_first_and_other_scenes_show_nothing(chain):
-    from bridge_demolition_addon.ui.key_figures.shown import in_view
+    from bridge_demolition_addon.ui.key_figures import in_view
 
     other = chain.data.scenes.new("other")
     assert not other.bda.figures_in_view
@@ -127,7 +127,7 @@ def test_it_is_kept_until_frame_selection_or_run_are_others(chain):
 
 
 def test_the_panel_leads_to_the_peak_of_what_is_selected(chain):
-    from bridge_demolition_addon.ui.key_figures.shown import peak_of_selected
+    from bridge_demolition_addon.ui.key_figures import peak_of_selected
 
     assert peak_of_selected(chain.context) is None
     select(chain, "lower")

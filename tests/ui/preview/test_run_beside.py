@@ -41,7 +41,7 @@ def shown(extension, beside):
 
 
 def said():
-    from bridge_demolition_addon.ui.preview.run_drawing import sentences
+    from bridge_demolition_addon.ui.preview.run_beside import sentences
 
     return sentences()
 

@@ -5,7 +5,7 @@ import pytest
 from support.checkout import SMALL
 
 from bridge_demolition_addon.model.results.arrays import RESULTS_FILE
-from bridge_demolition_addon.ui.recording.paths import documents_folder, new_folder
+from bridge_demolition_addon.ui.recording.session import documents_folder, new_folder
 from bridge_demolition_addon.ui.scenario.hints import next_step
 
 

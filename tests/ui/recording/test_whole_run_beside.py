@@ -23,7 +23,7 @@ FRAMES, SHARDS = 12, 12
 
 @pytest.fixture
 def runs(extension):
-    from bridge_demolition_addon.ui.recording.beside import runs_beside
+    from bridge_demolition_addon.ui.recording.ui import runs_beside
 
     yield runs_beside
     runs_beside.stop()
@@ -74,9 +74,9 @@ def test_its_results_are_those_of_run_and_shown_as_they_are(built, runs, tmp_pat
 
 
 def test_stopping_it_ends_its_process_and_so_does_switching_the_extension_off(built, runs, tmp_path):
-    from bridge_demolition_addon.ui.recording import beside
+    from bridge_demolition_addon.ui.recording import ui
 
-    for end in (built.ops.bda.stop_run_beside, beside.unregister):
+    for end in (built.ops.bda.stop_run_beside, ui.unregister):
         built.ops.bda.run_beside()
         process_id = runs.run.process_id
         assert is_alive(process_id)

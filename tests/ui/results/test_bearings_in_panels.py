@@ -2,7 +2,7 @@
 """What the panels Results and Stages say of bearings."""
 
 from bridge_demolition_addon.ui.results.shown_run import bearing_rows
-from bridge_demolition_addon.ui.stages.ui import reaction_cells_of
+from bridge_demolition_addon.ui.stages import reaction_cells_of
 
 STANDS = {
     "name": "deck on pier 1",

@@ -11,7 +11,7 @@ from bridge_demolition_addon.simulation.blender_events import shown_results
 from bridge_demolition_addon.simulation.kept_run import has_run
 from bridge_demolition_addon.ui.results.shown_run import shown_run
 from bridge_demolition_addon.ui.results.ui import BDA_PT_results
-from bridge_demolition_addon.ui.scenario.undone import undo_note
+from bridge_demolition_addon.ui.scenario.hints import undo_note
 
 LAST = 8
 BALL = "Wrecking ball"
@@ -145,7 +145,7 @@ def test_results_of_another_bridge_are_not_shown_beside_this_one(built, tmp_path
 
 
 def test_a_bridge_that_is_gone_neither_stands_nor_runs(built):
-    from bridge_demolition_addon.ui.scenario.stability import draws_verdict
+    from bridge_demolition_addon.ui.scenario.hints import draws_verdict
 
     scene = built.context.scene
     assert draws_verdict(scene) and built.ops.bda.run.poll()

@@ -7,8 +7,8 @@ from support.checkout import ROOT
 
 from bridge_demolition_addon.model.schema import expected, key_name, key_of
 from bridge_demolition_addon.ui.registration import classes
+from bridge_demolition_addon.ui.scenario.key_tooltips import TYPICAL, typical_value
 from bridge_demolition_addon.ui.scenario.prop import all_tables, group_name, registered_group, shown_keys
-from bridge_demolition_addon.ui.scenario.typical_values import TYPICAL, typical_value
 
 FROM_2019 = (ROOT / "docs" / "from_2019.md").read_text(encoding="utf-8")
 NUMBERS = ("FLOAT", "INT")

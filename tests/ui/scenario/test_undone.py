@@ -4,7 +4,7 @@
 import pytest
 from support.checkout import SMALL
 
-from bridge_demolition_addon.ui.scenario.undone import undo_note
+from bridge_demolition_addon.ui.scenario.hints import undo_note
 
 
 @pytest.fixture

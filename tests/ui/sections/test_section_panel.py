@@ -29,13 +29,13 @@ def ran(built):
 
 
 def shown(bpy):
-    from bridge_demolition_addon.ui.sections.decorator import section_of
+    from bridge_demolition_addon.ui.sections import section_of
 
     return section_of(bpy.context.scene)
 
 
 def drawn(bpy):
-    from bridge_demolition_addon.ui.sections.ui import BDA_PT_section
+    from bridge_demolition_addon.ui.sections import BDA_PT_section
 
     return texts_drawn(BDA_PT_section, bpy)
 

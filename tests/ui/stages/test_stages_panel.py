@@ -15,8 +15,7 @@ from bridge_demolition_addon.model.scenario import Equipment
 from bridge_demolition_addon.simulation.blender_events import contours_of
 from bridge_demolition_addon.ui.contours import view as contour_view
 from bridge_demolition_addon.ui.scenario.values import show_scenario
-from bridge_demolition_addon.ui.stages.shown import checked_in
-from bridge_demolition_addon.ui.stages.ui import BDA_PT_stages
+from bridge_demolition_addon.ui.stages import BDA_PT_stages, checked_in
 
 EXCAVATOR = Equipment(name="excavator", mass_kg=10_000.0, position_m=(6.0, 0.0), footprint_m=(2.0, 2.0), from_s=0.5)
 STANDS = replace(

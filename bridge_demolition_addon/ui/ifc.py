@@ -1,25 +1,105 @@
-"""The button that makes a scenario of a bridge in an IFC file."""
+"""Bridges of IFC files in the sidebar: their elements, and the buttons that import them."""
 
 import json
 from pathlib import Path
 
 import bpy
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
+from bpy.props import BoolProperty, CollectionProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 from bpy_extras.io_utils import ImportHelper
 
-from ...errors import IfcError
-from ...ifc.folder import REPORT_FILE, SCENARIO_FILE, folder_beside, read_left_out
-from ...ifc.import_process import Imported, import_bridge, list_elements
-from ...ifc.library import missing_reason
-from ...ifc.settings import UNITS, ImportSettings
-from ...model.scenario.file import read_scenario
-from ...scene.left_out import show_left_out
-from ..modal_task import ModalTask, Work
-from ..operators import Action, UndoableAction, absolute
-from ..scenario.values import show_scenario
-from ..sidebar import path_property
-from ..stepped_thread import SteppedThread
-from .prop import BARS, BARS_HINT, LEFT_OUT
+from ..errors import IfcError
+from ..ifc.folder import REPORT_FILE, SCENARIO_FILE, folder_beside, read_left_out
+from ..ifc.import_process import Imported, import_bridge, list_elements
+from ..ifc.library import missing_reason
+from ..ifc.settings import KINDS, UNITS, ImportSettings
+from ..model.scenario.file import read_scenario
+from ..scene.left_out import show_left_out
+from .languages.words import translated
+from .modal_task import ModalTask, SteppedThread, Work
+from .operators import Action, UndoableAction, absolute
+from .scenario.values import show_scenario
+from .sidebar import SidebarPanel, draw_sentence, path_property
+
+LEFT_OUT = "left out"
+
+BARS = "Steel as Bars"
+BARS_HINT = "Make bars of [steelwork] of straight steel, with nodes where they meet, instead of cutting it into shards"
+
+
+def _label(kind: str) -> str:
+    """Return a kind as the list shows it; Bearing alone is a direction in other panels, and one word in a language."""
+    return "Bridge Bearing" if kind == "bearing" else kind.title()
+
+
+class BDA_PG_ifc_element(bpy.types.PropertyGroup):
+    """An element of the file that was looked into."""
+
+    title: StringProperty(name="Element", description="Its name in the file")
+    ifc_class: StringProperty(name="Class", description="Its class in the file")
+    global_id: StringProperty(name="GlobalId", description="What names it in the file for good")
+    kind: EnumProperty(
+        name="Kind",
+        description="What the element becomes",
+        items=[(LEFT_OUT, "Left Out", "It becomes no member"), *((kind, _label(kind), "") for kind in KINDS)],
+    )
+    kind_of_file: StringProperty(options={"HIDDEN"}, description="What the add-on took it for")
+    material: StringProperty(
+        name="Material", description="Name in the table of materials, such as concrete, steel, masonry or wood"
+    )
+    material_of_file: StringProperty(options={"HIDDEN"}, description="What the add-on took its material for")
+    why: StringProperty(name="Note", description="Why it is left out, or what was assumed of its material")
+
+
+class IfcProperties:
+    """The file that was looked into, and its elements."""
+
+    ifc_path: path_property("IFC File", "IFC file whose elements are listed")
+    ifc_only: StringProperty(
+        name="Only", description="Bridge that is taken of a file with several; none for the one with the most members"
+    )
+    ifc_bars: BoolProperty(name=BARS, description=BARS_HINT, default=True)
+    ifc_elements: CollectionProperty(type=BDA_PG_ifc_element, description="Elements of the file")
+    ifc_element_index: IntProperty(options={"HIDDEN"}, description="The chosen element")
+
+
+class BDA_UL_ifc_elements(bpy.types.UIList):
+    """Elements of an IFC file: name, kind and material."""
+
+    def draw_item(self, context, layout, data, item, icon, active_data, active_property, index) -> None:
+        """Draw a row; what is left out is greyed."""
+        row = layout.row(align=True)
+        name = row.row()
+        name.active = item.kind != LEFT_OUT
+        name.label(text=item.title, translate=False)
+        row.prop(item, "kind", text="", emboss=False)
+        material = row.row()
+        material.active = item.kind not in (LEFT_OUT, "bearing")
+        material.prop(item, "material", text="", emboss=False)
+
+
+class BDA_PT_ifc_elements(SidebarPanel, bpy.types.Panel):
+    """What the elements of an IFC file become."""
+
+    bl_label = "IFC Elements"
+    bl_options = set()  # open, and up there with its button: it is there only once a file was looked into
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return bool(context.scene.bda.ifc_elements)
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout, settings = self.layout, context.scene.bda
+        layout.template_list("BDA_UL_ifc_elements", "", settings, "ifc_elements", settings, "ifc_element_index", rows=8)
+        index = settings.ifc_element_index
+        if 0 <= index < len(settings.ifc_elements):
+            element = settings.ifc_elements[index]
+            why = element.why or translated("as the file says")
+            draw_sentence(layout, context, f"{element.ifc_class}, {why}", icon="INFO")
+            layout.operator("bda.ifc_alike", icon="SORTALPHA")
+        layout.prop(settings, "ifc_only")
+        layout.prop(settings, "ifc_bars")
+        layout.operator("bda.import_ifc_elements", icon="IMPORT")
+
 
 _NO_LIBRARY = (lambda _context: missing_reason(),)
 

@@ -1,1 +1,0 @@
-"""Sidebar of charges and explosions."""

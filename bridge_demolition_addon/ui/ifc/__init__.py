@@ -1,1 +1,0 @@
-"""Importing a bridge from an IFC file."""

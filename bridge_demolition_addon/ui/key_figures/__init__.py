@@ -1,1 +1,0 @@
-"""Key figures, a history of force and the debris of the shown frame, over the 3D view."""

@@ -1,1 +1,0 @@
-"""Sections through the pile in the 3D view."""

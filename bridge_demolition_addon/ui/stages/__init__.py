@@ -1,1 +1,0 @@
-"""Stages: does the bridge stand between the steps of its demolition?"""
