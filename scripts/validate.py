@@ -36,6 +36,7 @@ CASES = (
     "breaking_tower",
     "toppling_row",
     "toppling_charge",
+    "landing_shaft",
     "blasted_strip",
     "lost_support",
     "sudden_loss",

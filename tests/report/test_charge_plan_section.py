@@ -58,7 +58,7 @@ def test_what_is_above_a_zone_falls_and_can_land_on_its_stub():
     loads = [ZoneLoad("P2.1", 0.38e6, 0.0, 0.0), ZoneLoad("P1.2", -0.11e6, 0.0, 0.0)]
     table = tables(section_of(DRILLED, loads))["zone_falls"]
     cells = {row[0]: row[1:] for row in table.shown_rows()}
-    assert cells["P2.1"] == ["0.38", "1.20", "1.50", "5.4", "2.65", "0.75", "yes"]
+    assert cells["P2.1"] == ["0.38", "1.20", "1.50", "5.4", "2.65", "0.75", "0.07", "1.43", "yes"]
     assert cells["P1.2"][:2] == ["-0.11", "0.05"]  # of 2.20 MN in tension
     assert cells["P3.1"][:2] == ["-", "-"]  # not known
     viaduct = tables(section_of(read_scenario(EXAMPLES / "drilled" / "viaduct_pier.toml")))["zone_falls"]

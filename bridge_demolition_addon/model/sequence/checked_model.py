@@ -92,12 +92,17 @@ class ModelWorksite:
 
     @cached_property
     def _zone_falls(self) -> dict[str, ZoneFall]:
-        return zone_falls(placed_zones(self.plan, self.model.members, self.model.layers))
+        placed = placed_zones(self.plan, self.model.members, self.model.layers)
+        return zone_falls(placed, self.plan, self._loads_of_zones)
+
+    @cached_property
+    def _loads_of_zones(self) -> dict[str, ZoneLoad]:
+        return {load.zone: load for load in self.zone_loads}
 
     def facts_of_zone(self, zone: BlastZone) -> Iterator[Fact]:
         placed = placed_zone(zone, self.model.members, self.model.layers)
         yield from placed.facts(self.plan)
-        yield from facts_of_zones(placed, {load.zone: load for load in self.zone_loads}, self._zone_falls)
+        yield from facts_of_zones(placed, self._loads_of_zones, self._zone_falls)
 
     def check_zone(self, zone: BlastZone) -> None:
         placed = placed_zone(zone, self.model.members, self.model.layers)

@@ -4,16 +4,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ...engineering.drilled_charges.landing import LandingShaft
 from ...engineering.drilled_charges.specific_charge import Effect
 from ...engineering.geometry.vectors import AXES, cross, length
 from ...engineering.mechanics.section_cuts import ConnectionLoads
 from ...engineering.units import STANDARD_GRAVITY_M_S2
 from ..actions import Fact
 from ..blast.blast_zones import BlastZone
+from ..materials.materials import strengths
+from ..reinforcement.concrete_members import material_of
+from ..scenario import Scenario
 from ..schema import given
 from .blast_zones import PlacedZone
 from .model import Model
@@ -90,6 +94,8 @@ class ZoneFall:
         Heights of all zones of the member that are thrown out.
     zones : int
         How many these are.
+    shaft : LandingShaft or None
+        What is above it, where it is the only one and its load and strength are known.
     """
 
     falls_m: float
@@ -97,6 +103,7 @@ class ZoneFall:
     below_m: float
     all_m: float
     zones: int
+    shaft: LandingShaft | None = None
 
     @property
     def lands_m_s(self) -> float:
@@ -104,24 +111,65 @@ class ZoneFall:
         return math.sqrt(2.0 * STANDARD_GRAVITY_M_S2 * self.falls_m)
 
     @property
+    def crushed_m(self) -> float | None:
+        """What is crushed at most as it lands; None where that is not known."""
+        return self.shaft and self.shaft.crushed_m(self.falls_m)[1]
+
+    @property
+    def is_crushed(self) -> bool:
+        """Whether all of its member is crushed as it lands, at least with what explosive leaves of its strength."""
+        return self.crushed_m is not None and self.crushed_m >= self.above_m + self.below_m
+
+    @property
     def can_stand(self) -> bool:
         """Whether what is above is guided by one piece of its member to the other, and can stand on it."""
-        return self.zones == 1
+        return self.zones == 1 and not (self.shaft and (self.is_crushed or self.shaft.buckles))
 
     @property
     def text(self) -> str:
         """What is to be expected, without a full stop."""
         falls = f"what is above falls by {self.falls_m:.2f} m (lands with {self.lands_m_s:.1f} m/s)"
-        if not self.can_stand:
+        if self.zones > 1:
             return f"{falls}, {self.all_m:.2f} m by {self.zones} zones of the member, between which it can fold"
         onto = f"its stub of {self.below_m:.2f} m" if self.below_m > _LEAST_M else "what the member stands on"
+        if not self.can_stand:
+            return f"{falls} on {onto}"
         return f"{falls}, can land upright on {onto} and stand: a second zone of the member lets it fold"
 
+    def landing_texts(self) -> Iterator[str]:
+        """Yield what its landing does to the shaft by energy, a sentence without a full stop each."""
+        if (shaft := self.shaft) is None:
+            return
+        least_n, most_n = (force / _MEGA for force in shaft.crushing_n)
+        forces = f"{least_n:.1f} to {most_n:.1f} MN crush its end"
+        if self.is_crushed:
+            yield f"by energy it can be crushed from end to end: {forces}, by what explosive leaves of its strength"
+        elif shaft.buckles:
+            yield f"its landing can buckle it: {forces}"
+        else:
+            least_m, most_m = shaft.crushed_m(self.falls_m)
+            yield (
+                f"by energy {least_m:.2f} to {most_m:.2f} m of its {shaft.length_m:.2f} m are crushed ({forces}), and "
+                f"it stands on what is left if its head is within {shaft.lean_m:.2f} m of its foot"
+            )
+            over = "can tip over" if self.falls_m >= shaft.tips_from_m else "rocks and stands"
+            yield (
+                f"where it lands on an edge and nothing holds its head it {over}: that takes a fall of "
+                f"{shaft.tips_from_m:.2f} m"
+            )
 
-def zone_falls(zones: Sequence[PlacedZone]) -> dict[str, ZoneFall]:
-    """Return the falls of upright zones that fire and are thrown out, by their names."""
+
+def zone_falls(
+    zones: Sequence[PlacedZone], scenario: Scenario, loads: Mapping[str, ZoneLoad] | None = None
+) -> dict[str, ZoneFall]:
+    """Return the falls of upright zones that fire and are thrown out, by their names; `loads` are what zones carry."""
     thrown = [placed for placed in zones if _is_thrown(placed) and placed.zone.along == _UPRIGHT]
-    return {given(placed.zone.name): _fall_of(placed, thrown) for placed in thrown}
+    falls = {}
+    for placed in thrown:
+        name, fall = given(placed.zone.name), _fall_of(placed, thrown)
+        load = (loads or {}).get(name)
+        falls[name] = replace(fall, shaft=_shaft_of(placed, fall, load, scenario)) if load else fall
+    return falls
 
 
 def _is_thrown(placed: PlacedZone) -> bool:
@@ -136,6 +184,17 @@ def _fall_of(placed: PlacedZone, thrown: Sequence[PlacedZone]) -> ZoneFall:
     last_m = max((zone.ends_along_m[1] for zone in alike if zone.middle_m < begin_m), default=lowest_m)
     all_m = math.fsum(zone.height_m for zone in alike)
     return ZoneFall(placed.zone.height_m, next_m - end_m, begin_m - last_m, all_m, len(alike))
+
+
+def _shaft_of(placed: PlacedZone, fall: ZoneFall, load: ZoneLoad, scenario: Scenario) -> LandingShaft | None:
+    """Return what lands on the only zone of a member; None without a load, and where its strength is not known."""
+    material = material_of(scenario, placed.member)
+    if fall.zones > 1 or fall.above_m <= _LEAST_M or load.pressed_n <= 0.0 or material is None:
+        return None
+    area_m2, side_m = placed.volume_m3 / placed.zone.height_m, min(placed.thickness_m, placed.width_m)
+    own_n = area_m2 * fall.above_m * placed.density_kg_m3 * STANDARD_GRAVITY_M_S2
+    strength_pa = scenario.connections.strength_factor * float(strengths(scenario.materials)[material].compression_pa)
+    return LandingShaft(fall.above_m, side_m, area_m2 / side_m, load.pressed_n, min(own_n, load.pressed_n), strength_pa)
 
 
 def load_facts(placed: PlacedZone, load: ZoneLoad) -> Iterator[Fact]:
@@ -189,3 +248,4 @@ def facts_of_zones(placed: PlacedZone, loads: Mapping[str, ZoneLoad], falls: Map
         yield "", "what it carries at rest is not known by statics"
     if name in falls:
         yield "", falls[name].text
+        yield from (("", text) for text in falls[name].landing_texts())

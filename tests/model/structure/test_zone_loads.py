@@ -40,7 +40,7 @@ def test_a_zone_carries_what_is_above_it(tmp_path, middle_m, above_m, shards):
     assert load.pressed_n == pytest.approx(LOAD_N + WEIGHT_N_M * above_m, rel=1e-4)
     assert load.shear_n == pytest.approx(0.0, abs=50.0) and load.bending_nm == pytest.approx(0.0, abs=2e3)
     assert Stability.of_json(json.loads(json.dumps(stability.to_json()))) == stability
-    (fall,) = zone_falls([placed_zone(scenario.blast_zones[0], model.members)]).values()
+    (fall,) = zone_falls([placed_zone(scenario.blast_zones[0], model.members)], scenario).values()
     assert (fall.falls_m, fall.above_m, fall.below_m) == pytest.approx((1.5, above_m, 2.5 - above_m))
     assert fall.can_stand and fall.lands_m_s == pytest.approx(np.sqrt(2.0 * G * 1.5))
 
@@ -51,10 +51,15 @@ def test_check_says_what_its_bars_hold_and_that_it_can_land_and_stand(tmp_path):
     model = column_model(scenario)
     told = texts(scenario, model, stability_of(scenario, model, with_factor=False).zones)
     assert "pressed with 0.52 MN at rest, 1.25 times what bars may be counted on for: they fold" in told
-    assert told[-1] == (
+    # 520.2 kN · 1.5 m / (8.575 and 17.15 MN - 0.52 MN); 0.35 m less half of 0.52 / (17.5 · 0.7) m; R = 1.7846 m to its
+    # head is 0.0346 m more than 1.75 m, and (1.75² - 0.35²) / R² = 0.923 is left: 4 · 0.0346 (R / 0.7 / 0.923)² m
+    assert told[-3:] == [
         "what is above falls by 1.50 m (lands with 5.4 m/s), can land upright on its stub of 0.75 m and stand: a "
-        "second zone of the member lets it fold"
-    )
+        "second zone of the member lets it fold",
+        "by energy 0.05 to 0.10 m of its 1.75 m are crushed (8.6 to 17.1 MN crush its end), and it stands on what is "
+        "left if its head is within 0.33 m of its foot",
+        "where it lands on an edge and nothing holds its head it can tip over: that takes a fall of 1.06 m",
+    ]
     assert "what it carries at rest is not known by statics" in texts(scenario, model, ())
     misfire = replace(scenario, blast_zones=(replace(ZONE, fires=False),))
     assert texts(misfire, model, (ZoneLoad("zone", 521e3, 0.0, 0.0),))[-1] == "pressed with 0.52 MN at rest"
@@ -81,18 +86,45 @@ def test_bars_are_judged_by_their_least_and_their_largest_resistance(pressed_n, 
     assert "no bars are left" in next(load_facts(placed_zone(ZONE, column_members()), ZoneLoad("zone", 1.0, 0, 0)))[1]
 
 
-def test_two_zones_of_a_member_let_it_fold():
+@pytest.mark.parametrize(
+    ("pressed_n", "text"),
+    [
+        (
+            9e6,
+            "by energy it can be crushed from end to end: 8.6 to 17.1 MN crush its end, by what explosive leaves of ",
+        ),
+        (
+            6e6,
+            "by energy it can be crushed from end to end: 8.6 to 17.1 MN crush its end, by what explosive leaves of ",
+        ),
+        (-1e5, None),
+    ],
+)
+def test_what_can_be_crushed_from_end_to_end_is_not_said_to_stand(tmp_path, pressed_n, text):
+    """6 MN fall 1.5 m: 9 MN·m against 2.575 MN, the force that crushes less that of 6 MN, take 3.5 m of 2.5 m."""
+    scenario = column_scenario(tmp_path, ZONE)
+    loads = {"zone": ZoneLoad("zone", pressed_n, 0.0, 0.0)}
+    (fall,) = zone_falls([placed_zone(ZONE, column_members())], scenario, loads).values()
+    assert [found.startswith(text) for found in fall.landing_texts()] == [True] * bool(text)
+    assert fall.can_stand == (text is None) == ("can land upright" in fall.text)
+
+
+def test_two_zones_of_a_member_let_it_fold(tmp_path):
     zones = [
         replace(ZONE, name=name, middle_m=middle_m, height_m=0.6, holes_a_row=2, spacing_m=0.3)
         for name, middle_m in (("foot", 0.4), ("middle", 2.5), ("misfire", 3.5))
     ]
     zones[2] = replace(zones[2], fires=False)
     members = column_members()
-    falls = zone_falls([placed_zone(zone, members) for zone in zones])
+    falls = zone_falls(
+        [placed_zone(zone, members) for zone in zones],
+        column_scenario(tmp_path),
+        {"foot": ZoneLoad("foot", 521e3, 0.0, 0.0)},
+    )
     assert set(falls) == {"foot", "middle"}
     assert (falls["foot"].above_m, falls["foot"].below_m) == pytest.approx((1.5, 0.1))
     assert (falls["middle"].above_m, falls["middle"].below_m) == pytest.approx((1.2, 1.5))
-    assert not falls["foot"].can_stand
+    assert not falls["foot"].can_stand and not list(falls["foot"].landing_texts())
     assert falls["foot"].text.endswith("1.20 m by 2 zones of the member, between which it can fold")
 
 
