@@ -113,7 +113,7 @@ class ZoneFall:
     @property
     def crushed_m(self) -> float | None:
         """What is crushed at most as it lands; None where that is not known."""
-        return self.shaft and self.shaft.crushed_m(self.falls_m)[1]
+        return self.shaft.crushed_m(self.falls_m)[1] if self.shaft else None
 
     @property
     def is_crushed(self) -> bool:
