@@ -18,7 +18,7 @@ from pathlib import Path
 
 import bench_history
 
-from bridge_demolition_addon.system.one_core import load_on_one_core
+from bridge_demolition_addon.system.processor import load_on_one_core
 
 BENCHES = (
     "building",

@@ -20,15 +20,14 @@ from matplotlib.figure import Figure
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
-from bridge_demolition_addon.charts.study_charts import reach_distribution
-from bridge_demolition_addon.charts.study_plan import study_plan
+from bridge_demolition_addon.charts.ensemble_charts import reach_distribution, study_plan
 from bridge_demolition_addon.engineering.units import rounded_up
 from bridge_demolition_addon.model.ensemble.folder import ensemble_of_file
 from bridge_demolition_addon.model.scenario.file import scenario_text
 from bridge_demolition_addon.model.study.file import SEED, Ensemble
 from bridge_demolition_addon.model.study.keys import changed, keys_named
 from bridge_demolition_addon.model.study.runs_table import DONE, RESTED, RunRow, RunsTable, read_runs, write_runs
-from bridge_demolition_addon.report.ensemble.study_runs import StudyRuns, read_study_runs
+from bridge_demolition_addon.report.ensemble.reported_ensemble import StudyRuns, read_study_runs
 from bridge_demolition_addon.report.wording.numbers import percent
 from bridge_demolition_addon.studies.run_process import RunLimits, RunProcess
 from bridge_demolition_addon.studies.run_program import run_program_command

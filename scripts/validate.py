@@ -24,7 +24,7 @@ from case import GROUPS, Against, Case, Comparison, Found
 from deciding_version import deciding_version
 from matplotlib.figure import Figure
 
-from bridge_demolition_addon.report.wording.measurements import TABLE
+from bridge_demolition_addon.report.wording.checks import TABLE
 
 ROOT = Path(__file__).resolve().parent.parent
 CASES = (

@@ -217,8 +217,13 @@ def test_every_option_of_a_command_is_one(capsys):
 def test_a_force_object_is_as_the_table_says(extension):
     from support.blocks import Blocks
 
-    from bridge_demolition_addon.scene.blast.field_reach import LONGEST_M, SHARE_OF_WAY, WIDEST_M
-    from bridge_demolition_addon.scene.blast.force_fields import build_force_objects, force_objects
+    from bridge_demolition_addon.scene.blast.force_fields import (
+        LONGEST_M,
+        SHARE_OF_WAY,
+        WIDEST_M,
+        build_force_objects,
+        force_objects,
+    )
 
     blocks = Blocks()
     body = blocks.block((0.0, 0.0, 3.0), 100.0)

@@ -10,7 +10,7 @@ from case import GROUPS, VALIDATION, Against, Comparison
 from scipy.spatial.transform import Rotation
 from support.checkout import ROOT
 
-from bridge_demolition_addon.report.wording.measurements import TABLE, measured_cases
+from bridge_demolition_addon.report.wording.checks import TABLE, measured_cases
 
 
 @pytest.mark.parametrize("name", validate.CASES)

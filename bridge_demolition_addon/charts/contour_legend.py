@@ -10,10 +10,8 @@ import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.image import imread, imsave
 
-from ..display.colour_bar import colour_bar
 from ..display.colour_scale import colours
-from ..display.contour_ranges import ContourSettings
-from ..display.contours import ContourFrame
+from ..display.contours import ContourFrame, ContourSettings, colour_bar
 from ..system.disk import whole_file
 from .style import POINTS_PER_INCH, blank_figure
 

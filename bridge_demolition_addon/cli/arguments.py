@@ -9,7 +9,7 @@ from ..engineering.blast.pulses import BlastModel
 from ..engineering.blast.wave import Burst
 from ..engineering.unit_systems import UnitSystem
 from ..errors import BlastError, GeometryError, ScenarioError
-from ..report.languages.table import ENGLISH, language_names
+from ..report.languages.translation import ENGLISH, language_names
 
 SMALLEST, LARGEST = 1e-6, 1e9
 """Limits of a mass, a distance or a load on the command line."""

@@ -8,7 +8,7 @@ from tempfile import gettempdir
 from types import ModuleType
 
 from ..errors import SimulationError
-from ..system.one_core import on_one_core
+from ..system.processor import on_one_core
 from ..system.signals import interrupted_afterwards
 
 

@@ -12,8 +12,7 @@ from ..engineering.unit_systems import UnitSystem
 from ..errors import OutputError
 from ..model.ensemble.folder import RETRIED, EnsembleResult
 from ..model.study.file import Ensemble
-from ..report.languages.table import ENGLISH
-from ..report.languages.translation import Translation
+from ..report.languages.translation import ENGLISH, Translation
 from ..studies.engine import Engine, LocalProcesses, cores
 from ..studies.run_process import RunLimits
 from ..studies.session import EnsembleSession

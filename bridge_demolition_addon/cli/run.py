@@ -27,8 +27,7 @@ from ..model.sequence.checked_model import checked_model
 from ..model.sequence.ending import doubts_of_run, first_doubts
 from ..model.stages.stability import stability_texts
 from ..model.structure.model import Model
-from ..report.languages.table import ENGLISH
-from ..report.languages.translation import Translation
+from ..report.languages.translation import ENGLISH, Translation
 from ..system.progress import Progress
 from ..texts import Quantity, Text, distance_to_keep
 from .arguments import add_report_options, naming

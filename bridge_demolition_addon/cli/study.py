@@ -163,7 +163,7 @@ def _repeat(path: Path, number: int, *, quiet: bool) -> None:
 
 def _verified(path: Path, name: str) -> str:
     """Return what the runs of the study in a folder state about a zone of its scenario."""
-    from ..report.ensemble.study_runs import read_study_runs
+    from ..report.ensemble.reported_ensemble import read_study_runs
 
     runs = read_study_runs(path)
     settings, zones = runs.ensemble.settings, {zone.name: zone for zone in runs.ensemble.scenario.zones}

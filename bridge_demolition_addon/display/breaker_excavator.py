@@ -15,15 +15,15 @@ from .crawlers import Crawler, freest, standing_places
 from .dressing import DrawnPart, Stuff, rod
 from .standing_room import StandingRoom
 
-_BEYOND_M = (7.0, 8.0, 9.0, 10.0, 12.0, 14.0, 17.0, 20.0, 25.0)
-_ASIDE_M = (-2.0, 2.0, 0.0, -5.0, 5.0, -8.0, 8.0)
+_EXCAVATOR_BEYOND_M = (7.0, 8.0, 9.0, 10.0, 12.0, 14.0, 17.0, 20.0, 25.0)
+_EXCAVATOR_ASIDE_M = (-2.0, 2.0, 0.0, -5.0, 5.0, -8.0, 8.0)
 """How far from its work it may stand, away from the bridge and along it."""
 
 _ELBOW_SHARES, _ELBOW_RISES_M = (0.45, 0.6, 0.75), (0.8, 2.0, 4.0)
 """Where its elbow may be: as parts of the way from the tool to the heel of its arm, and how high above both."""
 
-_HEEL_M = (1.2, -0.3, 2.0)
-_BOOM_M, _STICK_M = 0.55, 0.4
+_EXCAVATOR_HEEL_M = (1.2, -0.3, 2.0)
+_EXCAVATOR_BOOM_M, _STICK_M = 0.55, 0.4
 _HOUSING_M, _COVERED, _OVER_M = 0.5, 0.45, 0.5
 """Side of the housing of the hydraulic hammer, which part of the chisel it covers, and how far it reaches above it."""
 
@@ -40,7 +40,7 @@ def breaker_excavators(results: Results, room: StandingRoom) -> dict[int, Crawle
     found = {}
     for tool in results.inventory.of_kind("tool").tolist():
         wrists = _wrists(results, tool)[some]
-        found[tool], _ = freest(_excavators(wrists.mean(axis=0), room), wrists, room, _BOOM_M)
+        found[tool], _ = freest(_excavators(wrists.mean(axis=0), room), wrists, room, _EXCAVATOR_BOOM_M)
     return found
 
 
@@ -52,7 +52,7 @@ def excavator_parts(
     for tool, excavator in excavators.items():
         heel, elbow, wrist = excavator.arm_to(_wrists(results, tool)[row])
         parts += [
-            DrawnPart(Stuff.YELLOW, rod(heel, elbow, _BOOM_M)),
+            DrawnPart(Stuff.YELLOW, rod(heel, elbow, _EXCAVATOR_BOOM_M)),
             DrawnPart(Stuff.YELLOW, rod(elbow, wrist, _STICK_M)),
             DrawnPart(Stuff.BLACK, _housing(wrist, _chisel_m(results, tool))),
             *excavator.parts(room.ground),
@@ -71,9 +71,9 @@ def _chisel_m(results: Results, tool: int) -> float:
 
 
 def _excavators(work: FloatArray, room: StandingRoom) -> Iterator[Crawler]:
-    for foot, turn in standing_places(work[:2], room.ground, _BEYOND_M, _ASIDE_M):
+    for foot, turn in standing_places(work[:2], room.ground, _EXCAVATOR_BEYOND_M, _EXCAVATOR_ASIDE_M):
         for elbow in product(_ELBOW_SHARES, _ELBOW_RISES_M):
-            yield Crawler(foot, turn, _HEEL_M, elbow)
+            yield Crawler(foot, turn, _EXCAVATOR_HEEL_M, elbow)
 
 
 def _housing(wrist: FloatArray, length_m: float) -> TriangleMesh:

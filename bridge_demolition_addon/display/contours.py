@@ -1,21 +1,118 @@
-"""Contours: a quantity of every body, frame by frame, as colours."""
+"""Contours: a quantity of every body, frame by frame or of stages, as colours in a range, with their colour bar."""
 
 from __future__ import annotations
 
 import bisect
+import math
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from enum import StrEnum
 from functools import cached_property
 from typing import Protocol
 
 import numpy as np
 
 from ..engineering.geometry.rotations import rotated, rotation_vectors
+from ..engineering.unit_systems import IMPERIAL, UnitSystem
+from ..errors import ContourError
 from ..model.results.arrays import Results
 from ..model.results.frames import Frame
 from ..model.results.inventory import Inventory
-from .colour_scale import colours
-from .contour_quantities import ContourQuantity
-from .contour_ranges import ContourScale, ContourSettings, RangeKind, percentiles
+from ..model.stages.stages import Stage
+from ..model.structure.model import Model
+from .colour_scale import ColourMap, colours, tick_text
+from .contour_quantities import BREAKS, ContourQuantity, ContourUnit
+
+
+class RangeKind(StrEnum):
+    """Which values the lowest and the highest colour stand for."""
+
+    RUN = "run"
+    FRAME = "frame"
+    FIXED = "fixed"
+
+
+@dataclass(frozen=True, slots=True)
+class ContourSettings:
+    """What bodies are coloured by, and how. Ranges are in N, Pa or m."""
+
+    quantity: ContourQuantity = ContourQuantity.RESULTANT
+    peak: bool = False  # the largest value up to a frame, not that of the frame
+    whole_run: bool = False  # the peak of all frames, whichever is shown: where the bridge will be loaded most
+    range_kind: RangeKind = RangeKind.RUN  # of all frames so far, of each frame, or fixed from low to high
+    low: float = 1e3
+    high: float = 1e6
+    logarithmic: bool = True  # equal steps of colour are equal ratios, without signs
+    decades: float = 3.0  # powers of ten in an automatic range that is logarithmic
+    percentile: float = 100.0  # of values other than 0 within an automatic range, %; others have its end's colour
+    colour_map: ColourMap = ColourMap.VIRIDIS
+    shaded: bool = True  # faces are darker the more they look away from the light; else as in the bar
+    magnification: float = 1.0  # factor on displacements
+
+    def __post_init__(self) -> None:
+        if self.range_kind != RangeKind.FIXED:
+            return
+        if not self.low < self.high:
+            raise ContourError(f"range of contours: its low end, {self.low:g}, has to be below its high, {self.high:g}")
+        if self.logarithmic and self.low <= 0.0:
+            raise ContourError(f"range of contours: a logarithmic one has to begin above 0, not at {self.low:g}")
+
+    def scale(self, low: float, high: float) -> ContourScale:
+        """Return the fixed range, or else that of values from low to high."""
+        if self.range_kind == RangeKind.FIXED:
+            return ContourScale(self.low, self.high, self.logarithmic)
+        if not self.logarithmic:
+            return ContourScale(low, high)
+        largest = max(-low, high)
+        return ContourScale(largest / 10.0**self.decades, largest, True) if largest > 0.0 else ContourScale(0.0, 0.0)
+
+
+@dataclass(frozen=True, slots=True)
+class ContourScale:
+    """From values to shares of the range: `low` and below is 0, `high` and above is 1."""
+
+    low: float
+    high: float
+    logarithmic: bool = False
+
+    def shares(self, values: np.ndarray) -> np.ndarray:
+        """Return shares (n,) of values (n,), nan where there is no value; all 0 in a range without an extent."""
+        values = np.asarray(values, float)
+        low, high = self.low, self.high
+        if not low < high:
+            return np.where(np.isfinite(values), 0.0, np.nan)
+        if self.logarithmic:
+            values, low, high = np.log10(np.maximum(abs(values), low)), math.log10(low), math.log10(high)
+        return np.clip((values - low) / (high - low), 0.0, 1.0)
+
+    def ticks(self, most: int = 6) -> np.ndarray:
+        """Return round values within the range, from low to high, no more than `most` of them."""
+        if not self.low < self.high:
+            return np.array([self.low])
+        if self.logarithmic:
+            first, last = math.ceil(math.log10(self.low) - 1e-9), math.floor(math.log10(self.high) + 1e-9)
+            exponents = np.arange(first, last + 1)
+            powers = 10.0 ** exponents[:: max(1, math.ceil(len(exponents) / most))]
+            return powers if len(powers) > 1 else np.array([self.low, self.high])
+        step = _round_step((self.high - self.low) / (most - 1))
+        first, last = math.ceil(self.low / step - 1e-9), math.floor(self.high / step + 1e-9)
+        return step * np.arange(first, last + 1)
+
+
+def percentiles(values: np.ndarray, percentile: float) -> tuple[float, float]:
+    """Return the percentile of the values (n,) below 0, downwards, and of those above it; 0 where there are none."""
+    ends = []
+    for side in (-1.0, 1.0):
+        beyond = (side * values)[side * values > 0.0]
+        ends.append(side * float(np.percentile(beyond, percentile)) if len(beyond) else 0.0)
+    return ends[0], ends[1]
+
+
+def _round_step(step: float) -> float:
+    """Return the next larger of 1, 2 and 5 times a power of ten."""
+    power = 10.0 ** math.floor(math.log10(step))
+    return next(power * digit for digit in (1.0, 2.0, 5.0, 10.0) if power * digit >= step * (1.0 - 1e-9))
+
 
 _BALL = "ball"
 
@@ -171,3 +268,94 @@ class ContourSeries:
             known = row_values[self._counts & np.isfinite(row_values)]
             values.append(row_values)
             extents.append((float(known.min(initial=0.0)), float(known.max(initial=0.0))))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class StageContours:
+    """Utilisation of n shards in s stages."""
+
+    times_s: np.ndarray  # (s,) begin of the stages
+    used: np.ndarray  # (s, n) largest utilisation of a shard's connections; nan where it has none any more
+    centres_m: np.ndarray  # (n, 3), by which the shards are known in a scene
+
+    @classmethod
+    def of_stages(cls, model: Model, stages: Sequence[Stage]) -> StageContours:
+        """Return the contours of the stages of a model."""
+        used = [used_by_shard(model, stage.standing.used) for stage in stages]
+        return cls(np.array([stage.time_s for stage in stages]), np.array(used), np.asarray(model.centres_m))
+
+    def __len__(self) -> int:
+        return len(self.times_s)
+
+    def show(self, stage: int, settings: ContourSettings) -> ContourFrame:
+        """Return the colours of a stage, from 1 on.
+
+        A range that is not fixed is linear, from 0 to where connections break, or as far beyond as they are used.
+        """
+        values = self.used[stage - 1]
+        of = values if settings.range_kind == RangeKind.FRAME else self.used
+        _, high = percentiles(of[np.isfinite(of)], settings.percentile)
+        is_fixed = settings.range_kind == RangeKind.FIXED
+        scale = settings.scale(0.0, high) if is_fixed else ContourScale(0.0, max(high, BREAKS))
+        painted = colours(settings.colour_map, scale.shares(values))
+        return ContourFrame(stage, float(self.times_s[stage - 1]), values, scale, painted)
+
+
+def used_by_shard(model: Model, used: np.ndarray) -> np.ndarray:
+    """Return the largest utilisation (n,) of each shard's connections, of that of all connections (m,)."""
+    largest = np.full(len(model.shards), np.nan)
+    for shards in model.connections.pairs.T:
+        there = shards >= 0  # the ground is no shard
+        np.fmax.at(largest, shards[there], used[there])
+    return largest
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class ColourBar:
+    """Texts of a colour bar, with ticks at shares (t,) from 0 (lowest) to 1 (highest)."""
+
+    title: str
+    subtitle: str
+    unit: str
+    tick_shares: np.ndarray
+    tick_texts: tuple[str, ...]
+    frame: str
+    time: str
+
+
+def colour_bar(settings: ContourSettings, frame: ContourFrame, units: UnitSystem = UnitSystem.METRIC) -> ColourBar:
+    """Return the colour bar of a frame, with ticks that are round in its unit of a system."""
+    scale = frame.scale
+    unit = _in_system(settings.quantity.units.of(max(abs(scale.low), abs(scale.high))), units)
+    ticks = unit.size * ContourScale(scale.low / unit.size, scale.high / unit.size, scale.logarithmic).ticks()
+    if settings.quantity is ContourQuantity.UTILISATION and scale.low <= BREAKS <= scale.high:
+        ticks = np.union1d(ticks, BREAKS)
+    return ColourBar(
+        title=settings.quantity.title,
+        subtitle=", ".join(_what_is_shown(settings)),
+        unit=f"({unit.name})",
+        tick_shares=scale.shares(ticks),
+        tick_texts=tuple(tick_text(tick / unit.size) for tick in ticks),
+        frame=f"{'stage' if settings.quantity is ContourQuantity.UTILISATION else 'frame'} {frame.frame}",
+        time=f"{frame.time_s:.3f} s",
+    )
+
+
+def _in_system(unit: ContourUnit, units: UnitSystem) -> ContourUnit:
+    """Return a metric unit, or the one of another system for it, as large in SI units as its numbers need."""
+    conversion = IMPERIAL.get(unit.name) if units is UnitSystem.IMPERIAL else None
+    return unit if conversion is None else ContourUnit(conversion.unit, unit.size / conversion.factor)
+
+
+def _what_is_shown(settings: ContourSettings) -> Iterator[str]:
+    quantity = settings.quantity
+    if quantity is ContourQuantity.UTILISATION:
+        yield "worst connection"
+    elif settings.peak:
+        yield f"{quantity.kind_of_peak} {'of the whole run' if settings.whole_run else 'so far'}"
+    elif quantity.kind_of_mean:
+        yield quantity.kind_of_mean
+    if settings.percentile < 100.0 and settings.range_kind != RangeKind.FIXED:
+        yield f"up to percentile {settings.percentile:g}"
+    if settings.magnification != 1.0:
+        yield f"shape × {settings.magnification:g}"

@@ -8,7 +8,7 @@ from ..engineering.geometry.solids import box
 from ..model.results.arrays import Results
 from ..model.structure.finishes import ROAD_KINDS
 from .dressing import DrawnPart, Stuff
-from .shard_motion import boxes_of_bodies
+from .moved_surfaces import boxes_of_bodies
 
 PIECE_M = 0.5
 """Length of a piece along the road."""

@@ -12,7 +12,7 @@ from ..engineering.arrays import FloatArray
 from ..engineering.terrain.recorded import RecordedGround
 from ..model.results.arrays import Results
 from .dressing import DrawnPart
-from .shard_motion import boxes_of_bodies
+from .moved_surfaces import boxes_of_bodies
 
 _CLEAR_M = 0.3
 """Least distance of a machine from what it must not cut."""

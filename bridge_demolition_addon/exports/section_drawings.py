@@ -94,7 +94,7 @@ def _polyline(layer: str, corners: np.ndarray, *, closed: bool) -> Iterator[tupl
 
 def _draw(section: PileSection, path: Path) -> None:
     # Loading matplotlib takes a second, which a drawing in DXF need not wait.
-    from ..charts.section_chart import section_chart, section_title
+    from ..charts.pile import section_chart, section_title
     from ..charts.style import blank_figure
 
     figure = blank_figure(*_FIGURE_IN, layout="constrained")

@@ -20,9 +20,9 @@ from ..model.results.energy import energy_of
 from ..model.results.motion import throw
 from ..model.run_folder.files import BEARING_LOG, BREAKING_LOG, DEBRIS_LOG, EXPLOSION_LOG, FORCE_LOG, TABLE_FOLDER
 from ..model.run_folder.logs import LARGEST_LOG
-from ..system.csv_tables import csv_rows
 from ..system.disk import whole_file
 from ..system.progress import Progress
+from ..system.reading import csv_rows
 
 MOST_ROWS = 1_048_575
 """Of a sheet, beside its headings; what has more goes on in another one."""

@@ -24,27 +24,31 @@ from ..model.structure.zone_loads import ZoneLoad
 from ..system.progress import Progress
 from ..texts import Text
 from ..version import VERSION
-from .charge_areas import areas_of_fragments, cordon_area
 from .document.blocks import Document, Report, Section
 from .run_folder import ReportedRun
 from .sections.blast import blast_section
 from .sections.charge_plan import charge_plan_section, flyrock_of, known_plan
 from .sections.collapse import collapse_section
-from .sections.cover import ONE_RUN, RUN_TITLE, findings_section, run_section, scenario_section, trust_section
+from .sections.cover import (
+    ONE_RUN,
+    RUN_TITLE,
+    findings_section,
+    model_section,
+    run_section,
+    scenario_section,
+    trust_section,
+)
 from .sections.debris import corner_table, debris_section, exclusion_section, terrain_section, zone_of
 from .sections.forces import force_section, logged_section
 from .sections.ground_motion import motion_section, touchdown_section
-from .sections.loads import load_section
-from .sections.model import model_section
+from .sections.loads import load_section, pull_section
 from .sections.plan_contents import with_plan_contents
 from .sections.planned_sequence import sequence_section
-from .sections.pulls import pull_section
-from .sections.reinforcement import reinforcement_section
+from .sections.reinforcement import reinforcement_section, tendon_section
 from .sections.stages import has_stages, stages_section
 from .sections.summary import first_photo, run_summary
-from .sections.tendons import tendon_section
 from .single_pages import single_pages
-from .site_plan import write_areas
+from .site_plan import areas_of_fragments, cordon_area, write_areas
 
 
 def run_report(

@@ -12,7 +12,7 @@ from ..model.scenario import Ball, Scenario
 from ..texts import Text, Unit, joined
 from .document.blocks import Block, Column, DataTable, Document, Paragraph, facts
 from .sections.cover import limits_of
-from .wording.clearance import CORDON
+from .wording.verdict import CORDON
 
 CLIENT, AUTHORITY, CREW = AUDIENCES = tuple(SINGLE_PAGES)
 

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
+from ..charts.pile import difference_map, footprints_map
 from ..charts.plan_maps import map_height_mm
-from ..charts.survey_maps import difference_map, footprints_map
 from ..model.debris.survey import SurveyComparison
 from ..texts import Quantity, Text, distance_to_keep
 from .document.blocks import Block, Column, DataTable, Document, Paragraph, Picture, Report, Section, facts

@@ -33,27 +33,24 @@ from ..system.disk import check_no_link, own_folder
 from ..system.folder_lock import FolderLock
 from ..system.progress import Progress
 from ..version import VERSION
-from .charge_areas import charge_areas
 from .comparison import comparison
 from .document.blocks import Document, Report, write_tables
 from .document.drawings import Drawings, drawings
 from .document.html import write_html
 from .document.pdf import write_pdf
-from .document.word import is_as_written, write_word
-from .document.word_library import check_word
+from .document.word import check_word, is_as_written, write_word
 from .ensemble.optimise import optimise_report, read_candidates
+from .ensemble.reported_ensemble import read_study_runs
 from .ensemble.search import read_answer, search_report
 from .ensemble.study import study_report
-from .ensemble.study_runs import read_study_runs
 from .languages.letters import NO_LETTERS, letters_of
-from .languages.table import ENGLISH, check_language
 from .languages.translated_report import notes_at_head, translated_document, with_notes
-from .languages.translation import Translation
+from .languages.translation import ENGLISH, Translation, check_language
 from .run import run_report
 from .run_folder import ReportedRun, read_run
 from .sections.charge_plan import planned_section
 from .sections.stages import has_stages, stages_report
-from .site_plan import write_areas
+from .site_plan import charge_areas, write_areas
 from .survey import survey_report, survey_rows
 
 

@@ -1,8 +1,9 @@
-"""A scene as it was built, kept with it, and what the user changed since."""
+"""A scene as it was built, kept with it: whether the bridge stands, and what the user changed since."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
 from uuid import uuid4
 
 import bpy
@@ -192,3 +193,16 @@ def _free_shards(bodies: BodySettings) -> list[int]:
 def _count(items: Sequence[object] | np.ndarray, one: str, many: str = "") -> str:
     count = len(items)
     return f"1 {one} is" if count == 1 else f"{count} {many or one + 's'} are"
+
+
+_STABILITY = "bda_stability"
+
+
+def keep_stability(scene: bpy.types.Scene, stability: Mapping[str, Any] | None) -> None:
+    """Keep a verdict as it is stored, or none."""
+    keep(scene, _STABILITY, None if stability is None else values_text(dict(stability)))
+
+
+def kept_stability(scene: bpy.types.Scene) -> dict[str, Any] | None:
+    """Return the verdict that is kept with a scene; None where nothing was built, or nothing worked out."""
+    return kept_values(scene, _STABILITY, {}) or None

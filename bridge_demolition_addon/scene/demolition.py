@@ -34,21 +34,30 @@ from .bodies import (
     keep_start_motion,
     mark_member,
 )
-from .connections.bearings import keep_pads, name_bearings
-from .connections.breaking_settings import Breaking, keep_bars, keep_breaking
-from .connections.constraints import create_connections
-from .connections.elasticity import forget_elasticity, keep_elasticity
-from .connections.joints import set_joints
-from .connections.soil import keep_soil
-from .connections.tendons import keep_tendons
+from .connections.constraints import Breaking, create_connections, keep_bars, keep_breaking, set_joints
+from .connections.elasticity import (
+    forget_elasticity,
+    keep_elasticity,
+    keep_pads,
+    keep_soil,
+    keep_tendons,
+    name_bearings,
+)
 from .run_tables import keep_run_tables, run_tables_of
-from .time_scale import animate_time_scale, stop_animation
 from .tools.ball import create_ball
 from .tools.build_site import BuildSite
 from .tools.cables import create_cables
 from .tools.ground_motion import keep_ground_motion, move_with_ground
 from .tools.jackhammer import create_jackhammer
-from .world import FIRST_STEP_FRAME, create_world, off_scene, remove_world, settings_restored_on_failure
+from .world import (
+    FIRST_STEP_FRAME,
+    animate_time_scale,
+    create_world,
+    off_scene,
+    remove_world,
+    settings_restored_on_failure,
+    stop_animation,
+)
 
 TOOLS: dict[type[PlannedAction], Callable[[BuildSite, Any], object]] = {
     Ball: create_ball,

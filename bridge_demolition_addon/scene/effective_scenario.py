@@ -17,8 +17,7 @@ from ..model.scenario.contacts import QUANTITIES, BodyInContact
 from ..model.schema import Table
 from .bodies import SHARD_PROPERTIES, Kind
 from .body_settings import BodySettings
-from .time_scale import TimeOfScene
-from .world import START_FRAME
+from .world import START_FRAME, TimeOfScene
 
 _Table = TypeVar("_Table", bound=Table)
 

@@ -4,20 +4,16 @@ from __future__ import annotations
 
 import bpy
 
-from .as_built import forget_built_bodies
+from .as_built import forget_built_bodies, keep_stability
 from .blast.force_fields import force_collection, force_objects
 from .bodies import bodies_of, is_marked
-from .connections.breaking_settings import Breaking, keep_breaking
-from .connections.constraints import constraints_of, ends_of, loose_connections
+from .connections.constraints import Breaking, constraints_of, ends_of, keep_breaking, loose_connections
 from .rendering.dust import remove_dust
-from .rendering.markers import clear_markers
+from .rendering.markers import clear_markers, remove_zones
 from .rendering.materials import remove_unused_materials
 from .rendering.surroundings import clear_surroundings
-from .rendering.zone_markers import remove_zones
 from .run_tables import keep_run_tables
-from .stability import keep_stability
-from .time_scale import stop_animation
-from .world import START_FRAME, remove_world
+from .world import START_FRAME, remove_world, stop_animation
 
 
 def remove_demolition(scene: bpy.types.Scene) -> int:

@@ -34,17 +34,21 @@ from ..model.structure.tendons import ModelTendons
 from .blast.charges import blast_of, charges_of
 from .bodies import Kind, start_motion_of
 from .body_settings import BodySettings, body_settings_of
-from .connections.bearings import BearingsOfScene, bearings_of, named_bearings_of
-from .connections.breaking_settings import Breaking, breaking_of
-from .connections.constraint_settings import ConstraintSettings, constraint_settings_of
-from .connections.elasticity import ConnectionElasticity, elasticity_of
-from .connections.soil import soil_of
-from .connections.tendons import tendons_of
+from .connections.constraints import Breaking, ConstraintSettings, breaking_of, constraint_settings_of
+from .connections.elasticity import (
+    BearingsOfScene,
+    ConnectionElasticity,
+    bearings_of,
+    elasticity_of,
+    named_bearings_of,
+    soil_of,
+    tendons_of,
+)
 from .effective_scenario import with_bodies, with_duration, with_first_frame, with_speed, with_time_step
 from .inventory import take_inventory
 from .run_tables import run_tables_of
-from .time_scale import TimeOfScene, time_of
 from .tools.ground_motion import GroundMotionOfScene, ground_motion_of
+from .world import TimeOfScene, time_of
 
 Parts = Mapping[str, Any]
 """Arrays, numbers and texts by names, as `digest` takes them."""

@@ -14,8 +14,7 @@ from ..engineering.timing.timeline import substeps_within
 from ..errors import SimulationError
 from ..model.results.frames import Frame
 from ..model.sequence.rest import Rest
-from ..scene.time_scale import time_step_at
-from ..scene.world import farthest_per_substep_of, start_over
+from ..scene.world import farthest_per_substep_of, start_over, time_step_at
 from .blender_events import running_recording, start_recording, stop_recording
 from .recording.recorder import Recording
 

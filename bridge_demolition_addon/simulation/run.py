@@ -13,7 +13,7 @@ from typing import Any
 import bpy
 
 from ..display.camera_targets import points_to_see
-from ..display.contour_ranges import ContourSettings
+from ..display.contours import ContourSettings
 from ..engineering.core.library import missing_core
 from ..errors import DemolitionError, SimulationError, text_of
 from ..model.results.arrays import FRAMES_FILE
@@ -28,10 +28,10 @@ from ..model.sequence.ending import only_motion_text
 from ..model.sequence.lifts import pick_warnings
 from ..model.stages.stability_by_statics import stability_of
 from ..model.structure.model import Model
+from ..scene.as_built import keep_stability
 from ..scene.demolition import build_demolition
-from ..scene.rendering.staging import stage
 from ..scene.rendering.stills import prepare_scene_for_pictures
-from ..scene.stability import keep_stability
+from ..scene.rendering.surroundings import stage
 from ..scene.tools.ground_motion import ground_motion_of
 from ..scene.world import keep_played_frames
 from ..system.native_output import without_noise

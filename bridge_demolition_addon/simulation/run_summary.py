@@ -25,8 +25,8 @@ from ..model.sequence.ending import undone_at_end
 from ..model.sequence.rest import Rest, last_event_s
 from ..model.sequence.undisturbed import fell_by_itself
 from ..model.structure.settlement import settlements
+from ..scene.as_built import kept_stability
 from ..scene.bodies import terrain_facts
-from ..scene.stability import kept_stability
 from ..scene.tools.ground_motion import GroundMotionOfScene, ground_motion_of
 from ..scene.world import scene_time_step
 from ..system.processor import processor_name

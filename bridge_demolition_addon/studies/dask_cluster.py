@@ -18,10 +18,9 @@ from ..errors import ClusterError, SimulationError
 from ..model.study.runs_table import KILLED, RunOutcome
 from ..system.disk import writing
 from .engine import Task, ended_items
-from .run_process import RunLimits
+from .run_process import RunLimits, WarmProcesses
 from .run_program import run_program_command
 from .versions import installed_blender, versions_with
-from .warm_processes import WarmProcesses
 
 if TYPE_CHECKING:
     from distributed import Future

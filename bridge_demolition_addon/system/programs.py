@@ -17,7 +17,7 @@ def program_command(
     A program of Blender runs it, without a window; this Python where none is given. Blender without preferences knows
     no extensions and none of their libraries, so it gets the paths of this process; so does this Python
     `with_libraries`, as Blender's own Python does not know them either. With `one_thread`, Blender has one, which is
-    for programs that render nothing; see `one_core`.
+    for programs that render nothing; see `processor`.
     """
     libraries = f"sys.path += {sys.path!r}; " if blender or with_libraries else ""
     paths = f"import sys; sys.path.insert(0, {str(_PACKAGE.parent)!r}); {libraries}"

@@ -11,8 +11,7 @@ from bpy.props import BoolProperty
 from manifold3d import CrossSection
 
 from ..display.ground_lines import cross_lines, draped, outline_lines, planned_zone
-from ..display.history_curves import ForceHistory, HistoryCurve, history_curve
-from ..display.key_figures import FrameFigures, RunFigures
+from ..display.key_figures import ForceHistory, FrameFigures, HistoryCurve, RunFigures, history_curve
 from ..model.results.collapse import ShardRest
 from ..model.scenario import Exclusion
 from ..simulation.blender_events import shown_results

@@ -7,7 +7,7 @@ import bpy
 from bpy.props import IntProperty
 
 from ..display.contour_quantities import ContourQuantity
-from ..display.stage_contours import StageContours
+from ..display.contours import StageContours
 from ..model.scenario import Scenario
 from ..model.sequence.checked_model import checked_model
 from ..model.stages.misfires import misfire_sentences, misfires

@@ -20,8 +20,7 @@ from bridge_demolition_addon.engineering.mechanics.joint import Joint
 from bridge_demolition_addon.engineering.structure.connections import Connections
 from bridge_demolition_addon.model.scenario import ShardSettings, SurfaceValues, TimeSettings
 from bridge_demolition_addon.scene.bodies import create_flat_ground, create_shards
-from bridge_demolition_addon.scene.connections.constraints import create_connections
-from bridge_demolition_addon.scene.connections.joints import set_joints
+from bridge_demolition_addon.scene.connections.constraints import create_connections, set_joints
 from bridge_demolition_addon.scene.world import create_world, off_scene
 
 SIZES = ((500, 2_250), (3_000, 13_500), (10_000, 45_000))

@@ -18,7 +18,7 @@ from benches.deck import DECK, SMALLEST, build_scene, deck, frame_s, make_world,
 from benches.way_of_2019 import forces_and_colours
 
 from bridge_demolition_addon.display.contour_quantities import ContourQuantity
-from bridge_demolition_addon.display.contour_ranges import ContourSettings
+from bridge_demolition_addon.display.contours import ContourSettings
 from bridge_demolition_addon.simulation.blender_events import contours_of
 
 FRAMES, ROUNDS = 5, 3

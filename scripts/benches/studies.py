@@ -37,7 +37,7 @@ LIMITS = RunLimits()
 
 WITH_ONE_THREAD = """
 import runpy, sys
-from bridge_demolition_addon.system.one_core import load_on_one_core
+from bridge_demolition_addon.system.processor import load_on_one_core
 load_on_one_core("bpy")
 del sys.argv[0]
 runpy.run_path(sys.argv[0], run_name="__main__")

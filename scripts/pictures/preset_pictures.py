@@ -20,7 +20,7 @@ from shown_frame import shown_frame
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 
-from bridge_demolition_addon.display.shard_motion import boxes_of_bodies
+from bridge_demolition_addon.display.moved_surfaces import boxes_of_bodies
 from bridge_demolition_addon.model.results.arrays import Results, load_results
 from bridge_demolition_addon.model.results.motion import without_removed
 from bridge_demolition_addon.model.scenario.file import read_scenario

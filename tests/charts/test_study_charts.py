@@ -6,7 +6,7 @@ import pytest
 from manifold3d import CrossSection
 from matplotlib.colors import to_rgb
 
-from bridge_demolition_addon.charts.study_charts import (
+from bridge_demolition_addon.charts.ensemble_charts import (
     LIMIT_COLOUR,
     InputPanel,
     correlation_map,
@@ -14,8 +14,8 @@ from bridge_demolition_addon.charts.study_charts import (
     output_against_inputs,
     output_panels_height_mm,
     reach_distribution,
+    study_plan,
 )
-from bridge_demolition_addon.charts.study_plan import study_plan
 from bridge_demolition_addon.charts.style import blank_figure
 from bridge_demolition_addon.model.scenario import Neighbour
 

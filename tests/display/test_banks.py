@@ -4,7 +4,7 @@
 import numpy as np
 import pytest
 
-from bridge_demolition_addon.display.banks import LENGTH_M, bank
+from bridge_demolition_addon.display.approaches import LENGTH_M, bank
 from bridge_demolition_addon.display.dressing import Stuff
 from bridge_demolition_addon.engineering.geometry.mesh import TriangleMesh
 from bridge_demolition_addon.engineering.terrain.recorded import RecordedGround

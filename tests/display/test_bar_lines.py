@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from support.bridges_by_rule import PIERS, bridge, scenario
 
-from bridge_demolition_addon.display.bar_lines import bar_lines
+from bridge_demolition_addon.display.bridge_preview import bar_lines
 from bridge_demolition_addon.model.bridge.preparation import prepared_members
 from bridge_demolition_addon.model.scenario import BarLayer, Deck
 

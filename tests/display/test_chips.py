@@ -4,8 +4,7 @@
 import numpy as np
 import pytest
 
-from bridge_demolition_addon.display.chips import chips_of
-from bridge_demolition_addon.display.dust import Puff
+from bridge_demolition_addon.display.dust import Puff, chips_of
 from bridge_demolition_addon.engineering.terrain.recorded import RecordedGround
 
 FLAT = RecordedGround(None, ())

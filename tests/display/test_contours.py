@@ -7,14 +7,18 @@ import numpy as np
 import pytest
 from support.sample_results import FRAME_S, POINTS, G, hanging_chain
 
-from bridge_demolition_addon.display.colour_bar import colour_bar
 from bridge_demolition_addon.display.colour_scale import ColourMap, colours
 from bridge_demolition_addon.display.contour_quantities import ContourQuantity
-from bridge_demolition_addon.display.contour_ranges import ContourScale, ContourSettings, RangeKind
-from bridge_demolition_addon.display.contours import ContourSeries
+from bridge_demolition_addon.display.contours import (
+    ContourScale,
+    ContourSeries,
+    ContourSettings,
+    RangeKind,
+    StageContours,
+    colour_bar,
+)
 from bridge_demolition_addon.display.force_arrows import arrows, connection_forces, contact_forces
 from bridge_demolition_addon.display.frames import film_rows
-from bridge_demolition_addon.display.stage_contours import StageContours
 from bridge_demolition_addon.engineering.unit_systems import UnitSystem
 from bridge_demolition_addon.errors import ContourError, OutputError
 

@@ -4,7 +4,7 @@
 import numpy as np
 import pytest
 
-from bridge_demolition_addon.display.history_curves import ForceHistory, history_curve
+from bridge_demolition_addon.display.key_figures import ForceHistory, history_curve
 
 TIMES = np.array([0.0, 1.0, 2.0, 4.0])
 

@@ -4,7 +4,7 @@
 import numpy as np
 import pytest
 
-from bridge_demolition_addon.display.scale_figures import LORRY_M, PERSON_M, lorry, person
+from bridge_demolition_addon.display.approaches import LORRY_M, PERSON_M, lorry, person
 from bridge_demolition_addon.engineering.geometry.mesh import joined_meshes
 
 

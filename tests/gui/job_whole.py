@@ -149,7 +149,7 @@ def build_bridge(person: Person, panels: Panels) -> Steps:
     yield 1.0
     person.expect_reports("it stands, and how much more it carries is reported", "load factor")
     yield from person.illustrate("stands", person.sidebar)
-    kept = module("scene.stability").kept_stability(person.scene)
+    kept = module("scene.as_built").kept_stability(person.scene)
     person.expect("its verdict is kept with the scene", kept["verdict"], "stands")
 
 

@@ -18,7 +18,7 @@ from bridge_demolition_addon.model.debris.throws import debris_of
 from bridge_demolition_addon.model.scenario import Exclusion
 from bridge_demolition_addon.report.document.blocks import DataTable, Document, Paragraph
 from bridge_demolition_addon.report.ensemble.document import doubts_of
-from bridge_demolition_addon.report.ensemble.summary import study_summary
+from bridge_demolition_addon.report.ensemble.study import study_summary
 from bridge_demolition_addon.report.languages.translated_report import translated_document
 from bridge_demolition_addon.report.languages.translation import Translation
 from bridge_demolition_addon.report.run_folder import read_run

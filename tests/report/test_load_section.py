@@ -3,7 +3,7 @@
 
 from types import SimpleNamespace
 
-from bridge_demolition_addon.report.languages.table import ENGLISH, language_names, language_table
+from bridge_demolition_addon.report.languages.translation import ENGLISH, language_names, language_table
 from bridge_demolition_addon.report.sections.loads import load_section
 
 FLOOD = {

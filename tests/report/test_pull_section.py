@@ -4,7 +4,7 @@
 from types import SimpleNamespace
 
 from bridge_demolition_addon.report.document.blocks import DataTable, Paragraph
-from bridge_demolition_addon.report.sections.pulls import pull_section
+from bridge_demolition_addon.report.sections.loads import pull_section
 
 PULLS = [
     {

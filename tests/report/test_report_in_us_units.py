@@ -14,9 +14,10 @@ from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.engineering.unit_systems import UnitSystem
 from bridge_demolition_addon.errors import OutputError
 from bridge_demolition_addon.model.scenario import Exclusion, ReportSettings
-from bridge_demolition_addon.report.document import page_style, pdf
+from bridge_demolition_addon.report.document import page as page_style
+from bridge_demolition_addon.report.document import pdf
 from bridge_demolition_addon.report.languages.translation import Translation
-from bridge_demolition_addon.report.wording.clearance import Flyrock, clearance_rows
+from bridge_demolition_addon.report.wording.verdict import Flyrock, clearance_rows
 from bridge_demolition_addon.report.write import write_report
 from bridge_demolition_addon.texts import distance_to_keep
 

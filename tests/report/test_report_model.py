@@ -13,8 +13,8 @@ from support.exported_runs import turning_run
 from bridge_demolition_addon.exports.gltf import animated_glb
 from bridge_demolition_addon.report.document.blocks import AnimatedModel, Document
 from bridge_demolition_addon.report.document.html import write_html
-from bridge_demolition_addon.report.sections import model
-from bridge_demolition_addon.report.sections.model import model_section
+from bridge_demolition_addon.report.sections import cover
+from bridge_demolition_addon.report.sections.cover import model_section
 
 
 @pytest.fixture(scope="module")
@@ -47,7 +47,7 @@ def test_its_size_is_stated():
 
 
 def test_a_model_that_is_too_large_is_left_out_and_that_is_said(monkeypatch):
-    monkeypatch.setattr(model, "MOST_BYTES", 1000)
+    monkeypatch.setattr(cover, "MOST_BYTES", 1000)
     (text,) = model_section(turning_run()).blocks
     assert "it is left out" in text.text
     assert "bda export --to gltf" in text.text

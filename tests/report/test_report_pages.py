@@ -16,7 +16,8 @@ from support.study_folders import told_runs
 from bridge_demolition_addon.charts.style import PAGE_WIDTH_MM
 from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.report import write as writing
-from bridge_demolition_addon.report.document import page_style, pdf
+from bridge_demolition_addon.report.document import page as page_style
+from bridge_demolition_addon.report.document import pdf
 from bridge_demolition_addon.report.document.blocks import (
     Column,
     DataTable,

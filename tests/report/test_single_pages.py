@@ -20,8 +20,8 @@ from bridge_demolition_addon.report.ensemble.study import study_document
 from bridge_demolition_addon.report.run import run_document
 from bridge_demolition_addon.report.run_folder import read_run
 from bridge_demolition_addon.report.sections.debris import zone_of
+from bridge_demolition_addon.report.sections.planned_sequence import means_text, planned_steps
 from bridge_demolition_addon.report.single_pages import single_pages
-from bridge_demolition_addon.report.wording.sequence import means_text, planned_steps
 from bridge_demolition_addon.report.write import write_report
 
 SCENARIO = replace(

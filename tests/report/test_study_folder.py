@@ -19,7 +19,7 @@ from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.errors import OutputError
 from bridge_demolition_addon.model.scenario import Zone
 from bridge_demolition_addon.model.study.runs_table import read_runs
-from bridge_demolition_addon.report.ensemble.study_runs import read_study_runs
+from bridge_demolition_addon.report.ensemble.reported_ensemble import read_study_runs
 from bridge_demolition_addon.report.write import write_report
 
 pytestmark = pytest.mark.long

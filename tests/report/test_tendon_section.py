@@ -4,7 +4,7 @@
 from types import SimpleNamespace
 
 from bridge_demolition_addon.report.document.blocks import DataTable, Paragraph
-from bridge_demolition_addon.report.sections.tendons import tendon_section
+from bridge_demolition_addon.report.sections.reinforcement import tendon_section
 
 TENDONS = [
     {

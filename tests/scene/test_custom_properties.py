@@ -36,8 +36,7 @@ def read_all(scene):
     from bridge_demolition_addon.scene.blast.charges import blast_of, charges_of
     from bridge_demolition_addon.scene.blast.force_fields import force_objects
     from bridge_demolition_addon.scene.bodies import bodies_of, terrain_facts
-    from bridge_demolition_addon.scene.connections.breaking_settings import breaking_of, rewrite_thresholds
-    from bridge_demolition_addon.scene.connections.constraints import connections_of
+    from bridge_demolition_addon.scene.connections.constraints import breaking_of, connections_of, rewrite_thresholds
     from bridge_demolition_addon.scene.rendering.surroundings import points_in_view
     from bridge_demolition_addon.scene.run_setup import run_setup_of
     from bridge_demolition_addon.scene.tools.ball import lifts_of
@@ -87,7 +86,7 @@ OWN_KEYS = ("bda_mass_kg", "bda_explosive", "bda_delay_s", "bda_burst")
 
 @pytest.mark.parametrize("name", long_but(["ball"], SCENARIOS))
 def test_every_property_may_be_edited(blender, name):
-    from bridge_demolition_addon.scene.connections.breaking_settings import set_strength
+    from bridge_demolition_addon.scene.connections.constraints import set_strength
     from bridge_demolition_addon.scene.demolition import build_demolition
 
     scenario, scene, refused = scenario_from_text(SCENARIOS[name]), blender.context.scene, 0
@@ -119,7 +118,7 @@ def test_every_property_may_be_edited(blender, name):
 
 def test_soil_that_was_edited_is_named_with_its_object(blender):
     from bridge_demolition_addon.scene.connections.constraints import connections_of
-    from bridge_demolition_addon.scene.connections.soil import soil_of
+    from bridge_demolition_addon.scene.connections.elasticity import soil_of
     from bridge_demolition_addon.scene.demolition import build_demolition
 
     scenario, scene = scenario_from_text(ON_SOIL), blender.context.scene

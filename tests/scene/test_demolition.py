@@ -326,7 +326,7 @@ def test_unmarked_bodies_are_told_by_whether_they_move(blender, build):
 
 
 def test_thresholds_of_a_built_scene_follow_its_step(build):
-    from bridge_demolition_addon.scene.connections.breaking_settings import rewrite_thresholds
+    from bridge_demolition_addon.scene.connections.constraints import rewrite_thresholds
 
     scene = build()
     assert not rewrite_thresholds(scene)

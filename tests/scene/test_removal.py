@@ -17,7 +17,7 @@ from bridge_demolition_addon.scene.bodies import Kind, bodies_of, kind_of
 from bridge_demolition_addon.scene.connections.constraints import connections_of
 from bridge_demolition_addon.scene.demolition import build_demolition
 from bridge_demolition_addon.scene.removal import remove_demolition, remove_loose_connections
-from bridge_demolition_addon.scene.time_scale import time_is_animated
+from bridge_demolition_addon.scene.world import time_is_animated
 from bridge_demolition_addon.simulation import blender_events
 from bridge_demolition_addon.simulation.blender_events import start_recording, stop_recording
 from bridge_demolition_addon.simulation.recording.recorder import Recording

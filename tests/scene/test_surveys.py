@@ -27,7 +27,7 @@ def scan(height_m):
 )
 def test_cells_have_the_colour_of_their_difference(height_m, name, blender):
     """The shard is 4 m high; ground without debris by either is as foreseen."""
-    from bridge_demolition_addon.scene.surveys import show_survey
+    from bridge_demolition_addon.scene.rendering.ground import show_survey
 
     found = compared(hanging_chain(), scan(height_m), SurveySettings(cell_m=0.1))
     ground = np.full(found.survey_m.shape, 2.0)
@@ -40,7 +40,7 @@ def test_cells_have_the_colour_of_their_difference(height_m, name, blender):
 
 
 def test_a_survey_takes_the_place_of_the_one_before(blender):
-    from bridge_demolition_addon.scene.surveys import SURVEY_ROLE, show_survey
+    from bridge_demolition_addon.scene.rendering.ground import SURVEY_ROLE, show_survey
 
     found = compared(hanging_chain(), scan(4.0), SurveySettings(cell_m=0.1))
     for _ in range(2):

@@ -7,8 +7,7 @@ from support.beam_runs import played
 from support.cracked_beam import BARS, cracked, cracked_stiffness_nm2
 from support.prestressed_beam import Beam, beam_text
 
-from bridge_demolition_addon.scene.connections.breaking_settings import breaking_of
-from bridge_demolition_addon.scene.connections.constraints import connections_of
+from bridge_demolition_addon.scene.connections.constraints import breaking_of, connections_of
 
 
 @pytest.mark.long

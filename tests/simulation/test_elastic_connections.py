@@ -30,10 +30,8 @@ from bridge_demolition_addon.model.scenario.connections_between import Connectio
 from bridge_demolition_addon.model.structure.equilibrium import deflection_m, model_at_rest
 from bridge_demolition_addon.model.structure.model import build_model
 from bridge_demolition_addon.scene.bodies import bodies_of
-from bridge_demolition_addon.scene.connections.breaking_settings import Breaking, keep_breaking
-from bridge_demolition_addon.scene.connections.constraints import connections_of
+from bridge_demolition_addon.scene.connections.constraints import Breaking, connections_of, keep_breaking, set_joints
 from bridge_demolition_addon.scene.connections.elasticity import keep_elasticity
-from bridge_demolition_addon.scene.connections.joints import set_joints
 from bridge_demolition_addon.scene.tools.keyframes import key_values
 from bridge_demolition_addon.simulation.run import run_scenario
 

@@ -20,9 +20,8 @@ from bridge_demolition_addon.engineering.timing.timeline import Timeline
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.model.scenario import Jackhammer, Load, Removal, SawCut, Weakening
 from bridge_demolition_addon.scene.bodies import mark_member
-from bridge_demolition_addon.scene.connections.breaking_settings import Breaking, keep_breaking, set_strength
+from bridge_demolition_addon.scene.connections.constraints import Breaking, keep_breaking, set_joints, set_strength
 from bridge_demolition_addon.scene.connections.elasticity import keep_elasticity
-from bridge_demolition_addon.scene.connections.joints import set_joints
 from bridge_demolition_addon.scene.run_tables import keep_tables
 from bridge_demolition_addon.scene.tools.build_site import BuildSite
 from bridge_demolition_addon.scene.tools.jackhammer import create_jackhammer

@@ -13,7 +13,7 @@ from bridge_demolition_addon.engineering.elasticity.steel_bars import Steel
 from bridge_demolition_addon.engineering.mechanics.strength import Ductility, Strength
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.model.scenario import SawCut, Weakening
-from bridge_demolition_addon.scene.connections.breaking_settings import Breaking, keep_breaking
+from bridge_demolition_addon.scene.connections.constraints import Breaking, keep_breaking
 from bridge_demolition_addon.scene.connections.elasticity import keep_elasticity
 from bridge_demolition_addon.scene.run_tables import keep_tables
 

@@ -132,7 +132,7 @@ def test_an_orbit_keeps_the_bridge_in_view_all_the_way(blender):
     from bpy_extras.object_utils import world_to_camera_view
     from mathutils import Vector
 
-    from bridge_demolition_addon.scene.rendering.camera import aim_camera
+    from bridge_demolition_addon.scene.rendering.surroundings import aim_camera
 
     scene, points = blender.context.scene, np.array([(0, -4, 0), (26, -4, 0), (0, 4, 6), (26, 4, 6)], float)
     scene.frame_start, scene.frame_end = 1, 41

@@ -12,7 +12,7 @@ from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.results.summary import settling
-from bridge_demolition_addon.scene.connections.breaking_settings import Breaking, breaking_of
+from bridge_demolition_addon.scene.connections.constraints import Breaking, breaking_of
 from bridge_demolition_addon.simulation.blender_events import start_recording, stop_recording
 from bridge_demolition_addon.simulation.recording.recorder import Recording
 

@@ -11,7 +11,7 @@ from support.shard_scenes import DENSITY_KG_M3, ShardScene
 
 from bridge_demolition_addon.engineering.mechanics.strength import MATERIALS, Strength
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
-from bridge_demolition_addon.scene.connections.breaking_settings import Breaking, keep_breaking
+from bridge_demolition_addon.scene.connections.constraints import Breaking, keep_breaking
 from bridge_demolition_addon.simulation.blender_events import start_recording, stop_recording
 from bridge_demolition_addon.simulation.recording.recorder import Recording
 

@@ -7,8 +7,7 @@ import pytest
 from support.processes import is_alive
 from support.run_programs import VERSIONS, begun, program_in, request
 
-from bridge_demolition_addon.studies.run_process import RunLimits
-from bridge_demolition_addon.studies.warm_processes import WarmProcesses
+from bridge_demolition_addon.studies.run_process import RunLimits, WarmProcesses
 
 LIMITS = RunLimits(time_s=60.0)
 

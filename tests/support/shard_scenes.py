@@ -13,9 +13,12 @@ from bridge_demolition_addon.engineering.structure.connections import connect, n
 from bridge_demolition_addon.engineering.structure.face_sections import second_moments
 from bridge_demolition_addon.model.scenario import ShardSettings, SurfaceValues, TimeSettings
 from bridge_demolition_addon.scene.bodies import create_shards
-from bridge_demolition_addon.scene.connections.breaking_settings import Breaking, keep_breaking
-from bridge_demolition_addon.scene.connections.constraints import create_connections
-from bridge_demolition_addon.scene.connections.joints import set_joints
+from bridge_demolition_addon.scene.connections.constraints import (
+    Breaking,
+    create_connections,
+    keep_breaking,
+    set_joints,
+)
 from bridge_demolition_addon.scene.world import create_world, off_scene
 
 DENSITY_KG_M3 = 2400.0

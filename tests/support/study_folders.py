@@ -18,7 +18,7 @@ from bridge_demolition_addon.model.study.outcome import Outlines
 from bridge_demolition_addon.model.study.runs_table import RunOutcome, RunRow, RunsTable, write_runs
 from bridge_demolition_addon.model.study.sampled_runs import sampled_run
 from bridge_demolition_addon.model.study.settings import StudySettings, Vary
-from bridge_demolition_addon.report.ensemble.study_runs import StudyRuns
+from bridge_demolition_addon.report.ensemble.reported_ensemble import StudyRuns
 from bridge_demolition_addon.system.array_files.archive import write_archive
 
 _EXPLOSIVES = read_scenario(REPORT_2019 / "two_spans_13m_explosives.toml")

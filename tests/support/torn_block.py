@@ -6,7 +6,7 @@ import numpy as np
 from bridge_demolition_addon.engineering.elasticity.steel_bars import Steel
 from bridge_demolition_addon.engineering.mechanics.strength import Ductility, Strength
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
-from bridge_demolition_addon.scene.connections.breaking_settings import Breaking, keep_breaking
+from bridge_demolition_addon.scene.connections.constraints import Breaking, keep_breaking
 
 GRAVITY = float(np.float32(STANDARD_GRAVITY_M_S2))
 RIGID_PLASTIC = Steel(yield_pa=2e6, hardening=1.0)

@@ -12,8 +12,8 @@ from bridge_demolition_addon.errors import OutputError, UnreadableError
 from bridge_demolition_addon.exports.sheets import write_sheets
 from bridge_demolition_addon.model.run_folder.logs import read_logged_forces
 from bridge_demolition_addon.report.document.blocks import Column, DataTable, write_tables
-from bridge_demolition_addon.system.csv_tables import csv_cell, csv_rows
 from bridge_demolition_addon.system.progress import Progress
+from bridge_demolition_addon.system.reading import csv_cell, csv_rows
 
 LOG = "time_s,body,peak_force_sum_N,peak_force_N\n" + "".join(
     f"{frame / 10},{body},{frame}.5,1.5\n" for frame in range(20) for body in ("a", "b", "Ground")

@@ -8,7 +8,7 @@ import threading
 
 import pytest
 
-from bridge_demolition_addon.system.one_core import on_one_core
+from bridge_demolition_addon.system.processor import on_one_core
 from bridge_demolition_addon.system.programs import program_command
 
 pytestmark = pytest.mark.slow
@@ -51,7 +51,7 @@ def test_nothing_changes_where_a_process_cannot_be_held(monkeypatch):
 @on_linux
 @pytest.mark.skipif(os.cpu_count() == 1, reason="there is one core")
 def test_blender_makes_fewer_threads_and_may_run_everywhere():
-    loaded = "from bridge_demolition_addon.system.one_core import load_on_one_core; load_on_one_core('bpy'); "
+    loaded = "from bridge_demolition_addon.system.processor import load_on_one_core; load_on_one_core('bpy'); "
     threads, cores = zip(*(_counts(start + COUNT_THREADS) for start in ("", loaded)), strict=True)
     assert threads[1] < threads[0]
     assert cores[1] == cores[0]

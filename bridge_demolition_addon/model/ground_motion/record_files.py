@@ -10,8 +10,7 @@ import numpy as np
 
 from ...engineering.ground_motion.record import GroundRecord, integrated
 from ...errors import ScenarioError, UnreadableError
-from ...system.csv_tables import csv_rows
-from ...system.reading import MEGABYTE, file_text
+from ...system.reading import MEGABYTE, csv_rows, file_text
 from .settings import DIRECTIONS
 
 _MOST_BYTES = 50 * MEGABYTE

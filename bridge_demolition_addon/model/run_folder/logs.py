@@ -16,9 +16,8 @@ from ...engineering.mechanics.bearing_loads import BearingLoads
 from ...engineering.mechanics.section_forces import SectionForces
 from ...engineering.mechanics.stress import principal_stresses
 from ...errors import OutputError, UnreadableError
-from ...system.csv_tables import csv_cell, csv_rows
 from ...system.disk import is_in_place, writing
-from ...system.reading import MEGABYTE, check_file
+from ...system.reading import MEGABYTE, check_file, csv_cell, csv_rows
 from ..blast.explosion import StepLoads
 from ..results.frames import Frame
 from ..results.motion import throw, travel

@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 
 from ...engineering.units import STANDARD_GRAVITY_M_S2, mass_text, with_digits
-from ...system.csv_tables import csv_cell
 from ...system.disk import whole_file
+from ...system.reading import csv_cell
 from ..structure.model import Model
 from .changed_bridge import PressedBars
 from .lifted import LIFT_COLUMNS, LIFTS_FILE, hook_cells, lift_rows, lift_sentences

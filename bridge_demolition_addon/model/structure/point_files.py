@@ -10,8 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from ...errors import ScenarioError, UnreadableError
-from ...system.csv_tables import csv_rows
-from ...system.reading import MEGABYTE
+from ...system.reading import MEGABYTE, csv_rows
 
 MOST_BYTES = 1000 * MEGABYTE
 """Size up to which points are read: tens of millions of them."""

@@ -19,9 +19,8 @@ from typing import Any
 import numpy as np
 
 from ...errors import OutputError, UnreadableError
-from ...system.csv_tables import csv_rows
 from ...system.disk import whole_file
-from ...system.reading import MEGABYTE
+from ...system.reading import MEGABYTE, csv_rows
 
 RUN, STATUS = "run", "status"
 INPUT, OUTPUT = "in.", "out."

@@ -17,8 +17,8 @@ from ...engineering.unit_systems import NEAREST, UP, Unit
 from ...engineering.units import name_and_unit, with_digits
 from ...model.scenario.reporting import ReportSettings
 from ...model.schema import given
-from ...system.csv_tables import csv_cell
 from ...system.disk import whole_file
+from ...system.reading import csv_cell
 
 MISSING = "-"
 """Stands in a table where a value is not known."""

@@ -10,7 +10,7 @@ from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 
 from ...charts.style import MM_PER_INCH, PAGE_WIDTH_MM, POINTS_PER_INCH, blank_figure, lay_out
-from ..languages.figures import translate_figure
+from ..languages.translated_report import translate_figure
 from ..languages.translation import IN_ENGLISH, Translation
 from .blocks import Document, Picture
 

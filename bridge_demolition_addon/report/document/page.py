@@ -1,7 +1,8 @@
-"""A page of a PDF: lines of text, rules, boxes and drawings, each at its position in mm from the upper left corner."""
+"""A page of a PDF: its style, texts in lines that fit, rules, boxes and drawings, each at its position in mm."""
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cache, lru_cache
@@ -17,8 +18,8 @@ from matplotlib.ft2font import FT2Font, Kerning, LoadFlags
 from matplotlib.path import Path as Outline
 from matplotlib.transforms import IdentityTransform
 
-from ...charts.style import MM_PER_INCH, MM_PER_POINT, POINTS_PER_INCH
-from ..languages.letters import families
+from ...charts.style import MM_PER_INCH, MM_PER_POINT, PAGE_WIDTH_MM, POINTS_PER_INCH
+from ..languages.letters import families, pieces
 from .drawings import IMAGE_DOTS_PER_INCH
 
 PAGE_MM = (210.0, 297.0)
@@ -217,3 +218,49 @@ def _face(file: str) -> FT2Font:
 @cache
 def _font_files(weight: str, families: tuple[str, ...]) -> tuple[str, ...]:
     return tuple(findfont(FontProperties(family=family, weight=weight)) for family in families)
+
+
+LEFT_MM = (PAGE_MM[0] - PAGE_WIDTH_MM) / 2.0
+TOP_MM, BOTTOM_MM = 20.0, 277.0
+FOOT_MM = 285.0
+LINE = 1.4
+"""Height of a line by the size of its letters."""
+
+TITLE, HEADING = Font(18.0, "bold"), Font(13.0, "bold")
+TEXT, STRONG = Font(9.5), Font(9.5, "bold")
+SMALL, SMALL_STRONG = Font(8.0), Font(8.0, "bold")
+LISTING = Font(7.0, family="monospace")
+
+GAP_MM = 3.0
+"""Between columns of a table."""
+
+
+def wrapped(text: str, room_mm: float, font: Font) -> Iterator[str]:
+    """Yield lines that fit; a word that is longer than a line is cut."""
+    line = text[: len(text) - len(text.lstrip())]
+    room_mm += 1e-6
+    for blank, word in pieces(text):
+        longer = f"{line}{blank}{word}" if line.strip() else line + word
+        if width_mm(longer, font) <= room_mm:
+            line = longer
+            continue
+        if line.strip():
+            yield line
+        while width_mm(word, font) > room_mm and len(word) > 1:
+            cut = max(1, _fitting(word, room_mm, font))
+            yield word[:cut]
+            word = word[cut:]
+        line = word
+    if line.strip():
+        yield line
+
+
+def shortened(text: str, room_mm: float, font: Font) -> str:
+    if width_mm(text, font) <= room_mm:
+        return text
+    return text[: _fitting(text, room_mm - width_mm("…", font), font)] + "…"
+
+
+def _fitting(text: str, room_mm: float, font: Font) -> int:
+    """Return how many letters of a text fit."""
+    return bisect_right(range(1, len(text) + 1), room_mm, key=lambda count: width_mm(text[:count], font))

@@ -17,8 +17,7 @@ from ...texts import Text
 from ..languages.translation import IN_ENGLISH, Translation
 from .blocks import Block, DataTable, Document, Listing, Paragraph, Picture
 from .drawings import Drawings
-from .page import Font, Line, Page, PageFile, Placed, width_mm
-from .page_style import (
+from .page import (
     BOTTOM_MM,
     FOOT_MM,
     GAP_MM,
@@ -32,20 +31,29 @@ from .page_style import (
     TEXT,
     TITLE,
     TOP_MM,
+    Font,
+    Line,
+    Page,
+    PageFile,
+    Placed,
+    shortened,
+    width_mm,
+    wrapped,
 )
-from .photo_rows import (
+from .rows import (
     PHOTO_GAP_MM,
     SMALLEST_SCALE,
+    Cells,
     Drawn,
     PhotoRow,
+    Rows,
     Shown,
     abreast,
     caption_mm,
     drawn_height_mm,
     photo_drawn,
+    row_height_mm,
 )
-from .table_rows import Cells, Rows, row_height_mm
-from .wrapping import shortened, wrapped
 
 _HEADING_MM = 22.0
 """What a heading takes, with the room around it."""

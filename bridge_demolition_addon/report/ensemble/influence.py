@@ -9,7 +9,7 @@ from functools import partial
 
 import numpy as np
 
-from ...charts.study_charts import (
+from ...charts.ensemble_charts import (
     MOST_DOTS,
     InputPanel,
     correlation_map,

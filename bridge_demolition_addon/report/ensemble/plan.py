@@ -1,4 +1,4 @@
-"""The plan of a study: where debris is how likely, and the limit around the bridge."""
+"""The plan of a study: where debris is how likely, the limit around the bridge, small fragments, and the neighbours."""
 
 from __future__ import annotations
 
@@ -8,18 +8,21 @@ from functools import partial
 import numpy as np
 from manifold3d import CrossSection
 
+from ...charts.ensemble_charts import study_plan
 from ...charts.plan_maps import map_height_mm
-from ...charts.study_plan import study_plan
 from ...engineering.statistics.probability_map import LEVELS
 from ...engineering.units import rounded_up
 from ...model.schema import given
+from ...model.structure.zone_fragments import DOUBT
+from ...model.study.fragments import FragmentLimits
+from ...model.study.shown_names import shown
 from ...model.study.verification import zone_area
 from ...texts import Text, Unit, distance_to_keep, joined
-from ..charge_areas import areas_of_fragments, cordon_area
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section
+from ..site_plan import areas_of_fragments, cordon_area
 from ..wording.numbers import percent
-from ..wording.study import shape_sentence, verified_sentence
-from .study_runs import StudyRuns
+from ..wording.study import fragments_sentence, shape_sentence, verified_sentence
+from .reported_ensemble import StudyRuns
 
 _HIGHEST_MM = 112.0
 """Of the plan, so that verdict and limit stand on the same page."""
@@ -132,3 +135,86 @@ def _words(runs: StudyRuns) -> Iterator[str]:
         yield shape_sentence(corners, settings.quantile, settings.confidence)
     if runs.conclusions:
         yield from (verified_sentence(left, settings.quantile) for left in runs.zones_left)
+
+
+_COLUMNS = (
+    Column("", "what"),
+    Column("distance", "distance_m", ".0f", is_reach=True),
+    Column("confidence", "confidence", ".2%"),
+)
+
+
+def fragments_section(runs: StudyRuns) -> Section | None:
+    """Return how far fragments fly; None without blast zones, and before all runs are there."""
+    limits = runs.conclusions.fragments if runs.conclusions else None
+    if limits is None:
+        return None
+    exclusion = runs.ensemble.scenario.exclusion
+    cordon_m = exclusion.cordon_m if exclusion else None
+    words = Paragraph(fragments_sentence(limits, cordon_m), is_notice=True)
+    return Section("How far fragments fly", (words, _table(limits, cordon_m), *_picture(runs)))
+
+
+def _table(limits: FragmentLimits, cordon_m: float | None) -> DataTable:
+    of_runs = Text("limit for {} of runs", percent(limits.quantile))
+    sure = limits.achieved_confidence
+    rows: list[tuple[str, float | None, float | None]] = [
+        (Text("50 % of their mass, {}", of_runs), limits.half_m, sure),
+        (Text("99 % of their mass, {}", of_runs), limits.most_m, sure),
+        (Text("99.9 % of their mass, {}", of_runs), limits.nearly_all_m, sure),
+        (Text("farthest fragment, {}", of_runs), limits.largest_m, sure),
+        (Text("Lundborg, without a cover"), limits.lundborg_m, None),
+        (Text("McKenzie, without a cover"), limits.mckenzie_m, None),
+        (Text("cordon around the bridge's plan"), cordon_m, None),
+    ]
+    known = [row for row in rows if row[1] is not None and np.isfinite(row[1])]
+    return DataTable("fragment_limits", Text("Distances from the blast zone: {}", DOUBT), _COLUMNS, known)
+
+
+def _picture(runs: StudyRuns) -> Iterator[Block]:
+    scenario, areas = runs.ensemble.scenario, areas_of_fragments_in(runs)
+    if not areas or runs.bridge.is_empty():
+        return
+    cordon = cordon_area(scenario, runs.bridge)
+    bounds = np.array([area.bounds() for area in (*areas.values(), *cordon.values())])
+    yield Picture(
+        partial(
+            study_plan,
+            bridge=runs.bridge,
+            likely=areas,
+            limits=cordon,
+            zones=scenario.zones,
+            neighbours=scenario.neighbours,
+        ),
+        Text("Circles around the blast zones that parts of the mass in fragments stay within: {}.", DOUBT),
+        map_height_mm((*bounds[:, :2].min(axis=0), *bounds[:, 2:].max(axis=0))),
+    )
+
+
+_OF_NEIGHBOURS = "neighbours."
+_NEIGHBOUR_COLUMNS = (
+    Column("neighbour and quantity", "quantity"),
+    Column("median", "median", ".3g", of_row=True),
+    Column("largest", "largest", ".3g", of_row=True),
+    Column("of runs", "runs", "d"),
+)
+
+
+def neighbours_section(runs: StudyRuns) -> Section | None:
+    """Return what runs do at the neighbours; None where nothing is known of them."""
+    rows = []
+    for name in runs.table.outputs:
+        values = runs.table.output(name)
+        if not name.startswith(_OF_NEIGHBOURS) or values.dtype != float:
+            continue
+        known = values[np.isfinite(values)]
+        if len(known):
+            label = shown(name.removeprefix(_OF_NEIGHBOURS))
+            rows.append((label, float(np.median(known)), float(known.max()), len(known)))
+    if not rows:
+        return None
+    words = Text(
+        "The largest of these runs is no limit: other runs may have more. Criteria of the study say how often."
+    )
+    table = DataTable("neighbours_of_runs", "At the neighbours, of the runs that finished", _NEIGHBOUR_COLUMNS, rows)
+    return Section("Neighbours", (Paragraph(words), table))

@@ -14,8 +14,7 @@ from ...model.study.shown_names import is_reach, shown, words_and_unit
 from ...texts import Text, distance_to_keep
 from ..document.blocks import Block, Column, DataTable, Paragraph, Photo, Section
 from .influence import correlations_of
-from .reported_ensemble import ReportedEnsemble
-from .study_runs import StudyRuns
+from .reported_ensemble import ReportedEnsemble, StudyRuns
 
 _MOST_RUNS = 200
 """Of more, only the farthest are listed."""

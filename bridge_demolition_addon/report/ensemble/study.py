@@ -1,4 +1,4 @@
-"""The report of a study."""
+"""The report of a study, with its first page: plan, verdict, the limit and its basis, and what to doubt."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
-from ...charts.study_charts import limit_over_runs, reach_distribution
+from ...charts.ensemble_charts import limit_over_runs, reach_distribution
 from ...engineering.statistics.order_limits import limits_by_runs
 from ...engineering.units import rounded_up
 from ...model.scenario import Scenario
@@ -19,23 +19,65 @@ from ...model.study.shown_names import shown
 from ...system.progress import Progress
 from ...texts import Text, distance_to_keep
 from ...version import VERSION
-from ..document.blocks import Block, Column, DataTable, Document, Paragraph, Picture, Report, Section
+from ..document.blocks import Block, Column, DataTable, Document, Paragraph, Picture, Report, Section, facts
 from ..sections.charge_plan import charge_plan_section, flyrock_of, known_plan
 from ..sections.cover import TRUST_TITLE
 from ..sections.plan_contents import with_plan_contents
-from ..sections.planned_sequence import sequence_section
+from ..sections.planned_sequence import means_text, sequence_section
 from ..single_pages import single_pages
 from ..site_plan import write_areas
-from ..wording.numbers import ordinal, percent
-from ..wording.study import study_sentences
-from .document import ensemble_document, statement_section, unfinished_sentence
-from .fragments import fragments_section
+from ..wording.numbers import listed, ordinal, percent, percent_down
+from ..wording.study import input_names, study_sentences
+from ..wording.verdict import Flyrock, clearance_rows, flyrock_of_runs, study_verdict
+from .document import doubts_of, ensemble_document, statement_section, unfinished_sentence
 from .influence import correlation_table
-from .neighbours import neighbours_section
-from .plan import layers, plan_section
+from .plan import fragments_section, layers, neighbours_section, plan_picture, plan_section
+from .reported_ensemble import StudyRuns
 from .runs import extremes_section, runs_section
-from .study_runs import StudyRuns
-from .summary import study_summary
+
+
+def study_summary(runs: StudyRuns, flyrock: Flyrock | str | None = None) -> tuple[Block, ...]:
+    """Return what stands on the first page, what makes runs doubtful first; `flyrock` is that of the scenario."""
+    picture = () if runs.bridge.is_empty() else (plan_picture(runs),)
+    verdict = unfinished_sentence(runs, runs.ensemble.settings.runs)
+    if runs.conclusions:
+        verdict = study_verdict(runs.conclusions.reach, runs.buffer_m, is_final=not runs.conclusions.still_moving)
+    doubts = (Paragraph(text, is_notice=True) for text in doubts_of(runs))
+    plan = facts("The plan", list(_plan(runs, flyrock)), "plan")
+    return (*doubts, *picture, Paragraph(verdict, is_notice=True), plan)
+
+
+def _plan(runs: StudyRuns, flyrock: Flyrock | str | None) -> Iterator[tuple[str, str]]:
+    scenario, conclusions = runs.ensemble.scenario, runs.conclusions
+    yield Text("Done to the bridge"), means_text(scenario)
+    for criterion in conclusions.criteria if conclusions else ():
+        at_least = Text("at least {} of such runs do", percent_down(criterion.at_least))
+        yield Text("Outcome"), Text("{} of {} runs {}; {}", criterion.count, criterion.runs, criterion.what, at_least)
+    yield Text("Limit"), _limit_text(runs)
+    if conclusions and conclusions.fragments:
+        flyrock = flyrock_of_runs(conclusions.fragments)
+    limit = (next(iter(runs.limits.values()))[0], "{} that debris stays within by this study") if runs.limits else None
+    yield from clearance_rows(scenario, flyrock, limit)
+    yield Text("Rests on"), _basis_text(runs)
+
+
+def _limit_text(runs: StudyRuns) -> str:
+    if not runs.limits:
+        return Text("none yet")
+    limits = [distance_to_keep(rounded_up(far_m, "0.1")) for far_m, _ in runs.limits.values()]
+    around = Text("{} around the bridge's plan", limits[0])
+    if len(limits) > 1:
+        return Text("{}, {} with the buffer of {}", around, limits[1], distance_to_keep(runs.buffer_m or 0.0, "g"))
+    return Text("{}; a buffer has to be added", around)
+
+
+def _basis_text(runs: StudyRuns) -> str:
+    settings, names = runs.ensemble.settings, input_names(runs.ensemble)
+    was = "{} of {} independent runs, in which {} was sampled; asked are {} of runs with {} confidence"
+    were = "{} of {} independent runs, in which {} were sampled; asked are {} of runs with {} confidence"
+    asked = percent(settings.quantile), percent(settings.confidence)
+    return Text(was if len(names) == 1 else were, len(runs.table), settings.runs, listed(names), *asked)
+
 
 _STATISTICS = Text(
     "All statements hold for independent runs, whose number and whose rank were fixed beforehand: limits by rank "

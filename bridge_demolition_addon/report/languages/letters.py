@@ -9,7 +9,7 @@ from contextlib import contextmanager
 import matplotlib
 from matplotlib import font_manager
 
-from .table import ReportTexts
+from .translation import ReportTexts
 
 CHINESE_FONTS = (
     "Noto Sans CJK SC",

@@ -17,7 +17,7 @@ from ...model.structure.zone_fragments import FlyrockOfZone
 from ...model.structure.zone_loads import ZoneFall, ZoneLoad, bars_used, zone_falls
 from ...texts import Quantity, Text, Unit, joined
 from ..document.blocks import Block, Column, DataTable, Paragraph, Section, facts
-from ..wording.clearance import CORDON, Flyrock, cordon_text, flyrock_of_plan
+from ..wording.verdict import CORDON, Flyrock, cordon_text, flyrock_of_plan
 
 _TITLE = Text("Charge plan")
 _MEGA = 1e6

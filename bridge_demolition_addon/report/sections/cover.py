@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from ...engineering.units import mass_text
+from ...exports.gltf import animated_glb
 from ...model.debris.throws import Debris
 from ...model.reinforcement.concrete_members import plain_concrete_text
 from ...model.results.arrays import Results
@@ -15,12 +16,11 @@ from ...model.scenario.contact_facts import contact_facts
 from ...model.scenario.scenario import rules_of_bars
 from ...model.scenario.time import TimeSettings
 from ...texts import Quantity, Text, joined
-from ..document.blocks import Block, Column, DataTable, Listing, Paragraph, Photo, Section, facts
+from ..document.blocks import AnimatedModel, Block, Column, DataTable, Listing, Paragraph, Photo, Section, facts
 from ..findings import IMPACT, findings
 from ..run_folder import ReportedRun
-from ..wording.checks import CHECKS
-from ..wording.clearance import Flyrock, fragment_rows
-from ..wording.measurements import measured_cases
+from ..wording.checks import CHECKS, measured_cases
+from ..wording.verdict import Flyrock, fragment_rows
 
 RUN_TITLE = Text("The run")
 TRUST_TITLE = Text("What is modelled, and how far to trust it")
@@ -300,3 +300,32 @@ def photo_caption(run: ReportedRun, picture: str) -> str:
     """Return what a picture shows; in summaries of earlier versions there is no key frame."""
     reason = (run.summary and run.summary.key_frame_reason) or "In the course of the run"
     return Text({"before": "Before", "after": "At the end"}.get(picture, reason))
+
+
+MOST_BYTES = 20_000_000
+"""Of a model as it stands in a page: beyond that, browsers take seconds to open it."""
+
+
+def model_section(results: Results) -> Section:
+    """Return the section."""
+    model = AnimatedModel.of(
+        animated_glb(results), "The run: drag to turn, drag with Shift to move, wheel to come closer."
+    )
+    megabytes = len(model.packed) / 1e6
+    how = Text("bda export --to gltf writes it as a file for other programs.")
+    blocks: tuple[Block, ...]
+    if len(model.packed) > MOST_BYTES:
+        blocks = (
+            Paragraph(
+                Text("As a model the run would take {} MB of this page, so it is left out. {}", f"{megabytes:.0f}", how)
+            ),
+        )
+    else:
+        text = Text(
+            "The page report.html has the run here as a model that can be turned and played. It takes {} MB of "
+            "that page, and loads nothing from elsewhere. Bodies have the shapes that collide, their hulls. {}",
+            f"{megabytes:.2g}",
+            how,
+        )
+        blocks = (Paragraph(text), model)
+    return Section("The run as a model", blocks)

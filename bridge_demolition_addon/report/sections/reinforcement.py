@@ -1,10 +1,15 @@
-"""Reinforcement in a report of a run: schedule of bars by rule, sections with them, and concrete without any."""
+"""Bars and tendons in a report: as designed, how far cracks used the bars, and the energy that tendons let go."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
+from typing import Any
 
+import numpy as np
+
+from ...charts.histories import compared_histories
 from ...charts.reinforced_sections import draw_sections, sections_to_draw
 from ...engineering.reinforced_concrete.materials import (
     CONCRETE_FACTOR,
@@ -18,10 +23,13 @@ from ...model.bridge.preparation import prepared_members
 from ...model.reinforcement.concrete_members import plain_concrete_text
 from ...model.reinforcement.design import bar_schedule
 from ...model.reinforcement.schedule import Schedule, ScheduledBars, ScheduledLinks, named_text, steel_facts
+from ...model.results.arrays import Results
+from ...model.results.bar_extremes import largest_use_text
 from ...model.scenario import BridgeReinforcement, Scenario
 from ...model.scenario.scenario import rules_of_bars
-from ...texts import Quantity, Text
+from ...texts import Quantity, Text, joined
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section, facts
+from ..run_folder import ReportedRun
 
 _HEIGHT_MM = 130.0
 
@@ -104,3 +112,94 @@ def _row(row: ScheduledBars | ScheduledLinks) -> tuple[str | float | None, ...]:
     else:
         shown = Text("links"), "", None, None, None, None, row.link_area_mm2_per_m
     return named_text(row), *shown, row.bars_text, *numbers, Text(row.reason)
+
+
+_BAR_NOTES = Text(
+    "Use is the opening of a crack at its worst corner by that at which bars rupture. Under an impact it depends "
+    "on the length of sub-steps: it is no margin against rupture. Ruptured are cracks that all their bars let go, "
+    "in part those that some did: of a hinge that folds, bars at the closed edge stay. Cracks at work are in "
+    "bar_log.csv, frame by frame."
+)
+
+
+def bar_blocks(run: ReportedRun) -> list[Block]:
+    """Return a table and a chart of bars by kind of member; none without reinforcement across elastic connections."""
+    bars = run.summary.reinforcement if run.summary else None
+    if not bars:
+        return []
+    if not bars["cracked"]:
+        return [Paragraph(Text("None of the {} connections with bars cracked.", bars["with_bars"]))]
+    blocks: list[Block] = [_by_kind(bars["by_kind"]), Paragraph(_BAR_NOTES)]
+    if largest := largest_use_text(run.summary.values if run.summary else {}):
+        blocks.append(Paragraph(Text("Bars used at most {}.", largest)))
+    if lines := use_histories(run.recorded):
+        draw = partial(compared_histories, label=Text("use of the rupture strain (%)"), histories=lines)
+        blocks.append(Picture(draw, "Largest use of bars in each kind of member, in any sub-step of a frame."))
+    return blocks
+
+
+def use_histories(results: Results) -> list[tuple[str, np.ndarray, np.ndarray]]:
+    """Return the largest use of bars (k,), in per cent, in each kind of member over times (k,)."""
+    use, kinds = results.frames.loads.body_bar_use, results.inventory.body_member_kinds
+    if use is None:
+        return []
+    times_s = results.frames.time_s[1:]
+    histories: list[tuple[str, np.ndarray, np.ndarray]] = []
+    for kind in np.unique(kinds[kinds != ""]):
+        largest = 100.0 * use[1:, kinds == kind].max(axis=1, initial=0.0)
+        if largest.any():
+            histories.append((Text(str(kind)), times_s, largest))
+    return histories
+
+
+def _by_kind(kinds: Sequence[Mapping[str, Any]]) -> DataTable:
+    def value(key: str, factor: float = 1.0) -> Callable[[Mapping[str, Any]], float | None]:
+        return lambda kind: None if kind[key] is None else factor * kind[key]
+
+    columns = (
+        Column("member", "member_kind", "", lambda kind: Text(kind["kind"])),
+        Column("cracked", "cracked", "", lambda kind: kind["cracked"]),
+        Column("yielded", "yielded", "", lambda kind: kind["yielded"]),
+        Column("ruptured", "ruptured", "", lambda kind: kind["ruptured"]),
+        Column("in part", "ruptured_in_part", "", lambda kind: kind["ruptured_in_part"]),
+        Column("held at the end", "held_at_end", "", lambda kind: kind["held_at_end"]),
+        Column("largest use", "largest_use_percent", ".0f", value("largest_use_share", 100.0)),
+        Column("at", "largest_use_s", ".3f", value("largest_use_s")),
+    )
+    return DataTable.of("cracked_connections", "Cracked connections with bars, by kind of member", columns, kinds)
+
+
+_KILO = 1000.0
+
+_DANGER = Text(
+    "Energy of tendons is let go at once and hurts people: strands and anchorages fly out along the line of a "
+    "tendon. Keep everybody off that line and away from both anchorages from before a cut until all of them are "
+    "known to be without force. How far parts fly is not simulated."
+)
+
+_TENDON_COLUMNS = (
+    Column("Tendon", "tendon", "", lambda tendon: tendon["name"]),
+    Column("in", "member", "", lambda tendon: tendon["member"]),
+    Column("force", "force_kN", ".0f", lambda tendon: tendon["force_N"] / _KILO),
+    Column("energy", "stored_kJ", ".1f", lambda tendon: tendon["stored_J"] / _KILO),
+    Column(Text("let go", context="energy"), "released_kJ", ".1f", lambda tendon: _released_j(tendon) / _KILO),
+    Column("at", "first_s", ".3f", lambda tendon: tendon["released"][0]["time_s"] if tendon["released"] else None),
+    Column("how", "how", "", lambda tendon: _how(tendon)),
+)
+
+
+def tendon_section(run: ReportedRun) -> Section | None:
+    """Return the section; None without tendons."""
+    tendons = run.summary.tendons if run.summary else []
+    if not tendons:
+        return None
+    table = DataTable.of("tendons", "Tendons, and the energy that they let go in this run", _TENDON_COLUMNS, tendons)
+    return Section("Tendons", (Paragraph(_DANGER, is_notice=True), table))
+
+
+def _how(tendon: Mapping[str, Any]) -> str:
+    return joined("{}, {}", [Text(how) for how in dict.fromkeys(part["how"] for part in tendon["released"])])
+
+
+def _released_j(tendon: Mapping[str, Any]) -> float:
+    return math.fsum(part["energy_J"] for part in tendon["released"])

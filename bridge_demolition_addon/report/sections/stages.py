@@ -27,9 +27,8 @@ from ...model.stages.tables import (
     UPLIFT_KN,
 )
 from ...model.structure.bearing_ranges import ONE_CUT
-from ...system.csv_tables import csv_rows
 from ...system.progress import Progress
-from ...system.reading import MEGABYTE
+from ...system.reading import MEGABYTE, csv_rows
 from ...texts import Quantity, Text, joined, read
 from ...version import VERSION
 from ..document.blocks import Block, Column, DataTable, Document, Paragraph, Report, Section

@@ -21,10 +21,9 @@ from ...model.stages.stability import stability_texts
 from ...texts import Quantity, Text, joined
 from ..document.blocks import Block, Paragraph, Photo, Picture, facts
 from ..run_folder import ReportedRun
-from ..wording.clearance import Flyrock, clearance_rows
-from ..wording.sequence import means_text
-from ..wording.verdict import run_limit, run_verdict, verdict_so_far, verdict_without_frames
+from ..wording.verdict import Flyrock, clearance_rows, run_limit, run_verdict, verdict_so_far, verdict_without_frames
 from .cover import first_doubts_notice, photo_caption
+from .planned_sequence import means_text
 
 FIRST_PHOTOS = ("after", "impact", "before")
 """Names of rendered pictures; the first one that is there stands on the first page."""

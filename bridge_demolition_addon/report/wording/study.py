@@ -14,8 +14,8 @@ from ...model.study.file import Ensemble, Study
 from ...model.study.fragments import FragmentLimits
 from ...model.study.settings import StudySettings
 from ...texts import DOWN, Quantity, Text, distance_to_keep, joined
-from .clearance import CORDON, cordon_text, flyrock_of_runs
 from .numbers import listed, ordinal, percent, percent_down, percent_up
+from .verdict import CORDON, cordon_text, flyrock_of_runs
 
 _DOUBT = Text("All of these are known within a factor of 2: factor 2, no safety distance.")
 

@@ -1,4 +1,4 @@
-"""A scene for pictures alone: copies of what a run has moved, placed as it was recorded, and dressed for looks only.
+"""A scene for pictures alone: copies of what a run has moved, dressed for looks, and what is written in.
 
 The scene of the run is not touched: no body, no motion and no frame that Blender has played changes.
 """
@@ -17,12 +17,11 @@ from ...display.approaches import approaches
 from ...display.ball_crane import ball_cranes
 from ...display.bent_bars import bent_bars
 from ...display.breaker_excavator import breaker_excavators, excavator_parts
-from ...display.chips import Chips, chips_of
 from ...display.dressing import LOOKS_ONLY, DrawnPart, Stuff, joined_by_stuff, rod
-from ...display.dust import are_steel, puffs, touchdowns
+from ...display.dust import Chips, are_steel, chips_of, puffs, touchdowns
+from ...display.moved_surfaces import moved, parted
 from ...display.road_furniture import road_furniture
 from ...display.scale_bar import ScaleBar, scale_bar
-from ...display.shard_motion import moved, parted
 from ...display.standing_room import StandingRoom
 from ...engineering.geometry.mesh import TriangleMesh
 from ...engineering.geometry.solids import box
@@ -32,12 +31,94 @@ from ...model.scenario.recording import PictureSettings
 from ..bodies import Kind, bodies_of, is_uneven_ground, kind_of, mesh_of
 from ..tools.cables import drawn_cables
 from ..tools.keyframes import curves_of
-from .caption import Caption
 from .dust import raise_dust
-from .materials import BUILT_AT, SurfaceMaterial, material_of
+from .materials import BUILT_AT, SurfaceMaterial, material_of, new_nodes
 from .rough_faces import roughened
 from .stills import pictures_rendered_in, render_picture
 from .surroundings import is_land, points_in_view, share_view
+
+_HEIGHT, _SMALL, _LINE = 0.07, 0.048, 0.065
+"""Heights of letters, and of the lowest line, as parts of the picture's height."""
+
+_MARGIN = 0.03
+_AWAY_M = 1.0
+
+_SHADE, _BEHIND = 0.06, 1.0005
+"""How far a dark copy lies below and beside each text, in heights of its letters, and behind it: on white walls white
+words are read by it."""
+
+_DECIMALS = 2
+
+
+def time_text(time_s: float) -> str:
+    """Return a time of a run as pictures show it."""
+    return f"t = {time_s:.{_DECIMALS}f} s"
+
+
+class Caption:
+    """Texts that stand before the camera of a scene."""
+
+    def __init__(self, scene: bpy.types.Scene, length: str, looks_only: str) -> None:
+        camera = scene.camera
+        corners = [Vector(corner) for corner in camera.data.view_frame(scene=scene)]
+        scale = _AWAY_M / -corners[0].z
+        right, left = max(c.x for c in corners) * scale, min(c.x for c in corners) * scale
+        top, bottom = max(c.y for c in corners) * scale, min(c.y for c in corners) * scale
+        height = top - bottom
+        self._materials = _of_colour("Caption", 1.0), _of_colour("Caption shade", 0.01)
+        margin, small, line = _MARGIN * height, _SMALL * height, _LINE * height
+        place = (left + margin, bottom + margin + line)
+        self._time = self._words(scene, "Time", place, _HEIGHT * height, "LEFT", time_text(0.0))
+        self._words(scene, "Note", (left + margin, bottom + margin), small, "LEFT", looks_only)
+        self._words(scene, "Scale", (right - margin, bottom + margin + line), small, "RIGHT", f"bar: {length}")
+
+    def show_time(self, time_s: float) -> None:
+        """Write the time of the run."""
+        for text in self._time:
+            text.data.body = time_text(time_s)
+
+    def _words(
+        self, scene: bpy.types.Scene, name: str, place: tuple[float, float], size: float, aligned: str, words: str
+    ) -> list[bpy.types.Object]:
+        """Add words and their dark copy behind them."""
+        texts = []
+        for suffix, material, off, away in zip(
+            ("", " shade"), self._materials, (0.0, _SHADE * size), (_AWAY_M, _BEHIND * _AWAY_M), strict=True
+        ):
+            text = _text(scene, name + suffix, (place[0] + off, place[1] - off), size, aligned, material, away)
+            text.data.body = words
+            texts.append(text)
+        return texts
+
+
+def _text(
+    scene: bpy.types.Scene,
+    name: str,
+    place: tuple[float, float],
+    size: float,
+    aligned: str,
+    material: bpy.types.Material,
+    away_m: float,
+) -> bpy.types.Object:
+    data = bpy.data.curves.new(name, "FONT")
+    data.size, data.align_x, data.align_y = size, aligned, "BOTTOM"
+    data.materials.append(material)
+    text = bpy.data.objects.new(name, data)
+    text.parent = scene.camera
+    text.location = (*place, -away_m)
+    text.visible_shadow = text.visible_diffuse = text.visible_glossy = False
+    scene.collection.objects.link(text)
+    return text
+
+
+def _of_colour(name: str, brightness: float) -> bpy.types.Material:
+    material = bpy.data.materials.new(name)
+    material.diffuse_color = (brightness, brightness, brightness, 1.0)
+    emission, output = new_nodes(material, "ShaderNodeEmission", "ShaderNodeOutputMaterial")
+    emission.inputs["Color"].default_value = material.diffuse_color
+    material.node_tree.links.new(emission.outputs[0], output.inputs["Surface"])
+    return material
+
 
 _OF_STUFF = {
     Stuff.CONCRETE: SurfaceMaterial.CONCRETE,

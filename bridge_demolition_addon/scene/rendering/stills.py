@@ -21,8 +21,7 @@ from ...model.scenario.recording import CameraKind, PictureSettings, Renderer
 from ...system.disk import whole_file
 from ...system.native_output import without_noise
 from ..bodies import bodies_of
-from .camera import aim_camera
-from .surroundings import points_in_view
+from .surroundings import aim_camera, points_in_view
 
 _EXPOSURE = 1.0
 """Of Workbench, whose light is weak."""

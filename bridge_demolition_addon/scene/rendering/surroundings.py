@@ -1,20 +1,149 @@
-"""Sun, sky and camera around a bridge, in a collection of their own."""
+"""A demolition as it is looked at: materials, sun, sky and cameras; what Blender starts with is hidden."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable, Sequence
 
 import bpy
 import numpy as np
+from mathutils import Matrix, Vector
 
 from ...engineering.geometry.solids import box
-from ...model.scenario.recording import PictureSettings
-from ..bodies import SOIL, bodies_of, is_uneven_ground, mesh_of, scaled_mesh
+from ...model.scenario.recording import CameraKind, PictureSettings
+from ...model.structure.finishes import Finish, finishes
+from ...model.structure.model import Model
+from ..bodies import SOIL, Kind, bodies_of, is_uneven_ground, kind_of, member_of, mesh_of, scaled_mesh
 from ..collections import ROLE, collection_for, remove_marked
-from ..custom_properties import edited, keep, kept_series
-from .camera import aim_camera
-from .materials import SurfaceMaterial, material_of, new_nodes
-from .startup_objects import bring_startup_objects_back, put_startup_objects_away
+from ..custom_properties import edited, keep, kept_numbers, kept_series
+from ..tools.keyframes import key_values
+from ..visibility import hide_symbols
+from .materials import BUILT_AT, SurfaceMaterial, material_of, new_nodes
+
+_LENS_MM = 40.0
+_SENSOR_MM = 36.0
+_VIEW_FROM = Vector((-0.55, -1.0, 0.28)).normalized()
+_ROOM = 1.1
+
+
+def aim_camera(
+    scene: bpy.types.Scene,
+    points: np.ndarray,
+    aspect: float,
+    collection: bpy.types.Collection | None = None,
+    view: PictureSettings | None = None,
+) -> bpy.types.Object:
+    """Add a camera to the scene, or to a collection of it, and make it the scene's.
+
+    Unless the view gives its position, it sees points (n, 3), m, from beside the road or on its way round the bridge.
+    The aspect is width : height of the pictures.
+    """
+    camera = bpy.data.objects.new("Bridge camera", bpy.data.cameras.new("Bridge camera"))
+    camera.data.lens, camera.data.sensor_width = _LENS_MM, _SENSOR_MM
+    camera.data.sensor_fit = "HORIZONTAL"  # by default a picture that is higher than wide turns the sensor
+    if view and view.camera_m:
+        stand(camera, view.camera_m, Vector(view.camera_m) - Vector(view.look_at_m))
+    elif view and view.camera == CameraKind.ORBITING:
+        _orbit(scene, camera, points, aspect, view.orbit_deg)
+    else:
+        stand(camera, _viewpoint(points, _axes(_VIEW_FROM), aspect), _VIEW_FROM)
+    farthest = float(np.linalg.norm(points - camera.location, axis=1).max())
+    camera.data.clip_start, camera.data.clip_end = farthest / 1000.0, farthest * 10.0
+    (collection or scene.collection).objects.link(camera)
+    scene.camera = camera
+    return camera
+
+
+def stand(camera: bpy.types.Object, position: Sequence[float] | np.ndarray, back: Vector) -> None:
+    """Put a camera at a position, with this direction behind it."""
+    camera.location, camera.rotation_euler = position, back.to_track_quat("Z", "Y").to_euler()
+
+
+def _orbit(
+    scene: bpy.types.Scene, camera: bpy.types.Object, points: np.ndarray, aspect: float, turn_deg: float
+) -> None:
+    """Animate a camera that goes round the middle of points, so far away that it always sees all of them."""
+    frames = np.arange(scene.frame_start, scene.frame_end + 1)
+    turns = np.radians(turn_deg) * np.linspace(0.0, 1.0, len(frames))
+    middle = _middle(points)
+    backs = [Matrix.Rotation(turn, 3, "Z") @ _VIEW_FROM for turn in turns.tolist()]
+    distance = _ROOM * max(_needed(points, middle, _axes(back), aspect) for back in backs)
+    stand(camera, middle + distance * np.array(_VIEW_FROM), _VIEW_FROM)
+    key_values(camera, "location", frames, middle + distance * np.array(backs))
+    first = np.array(camera.rotation_euler)
+    key_values(camera, "rotation_euler", frames, first + np.outer(turns, (0.0, 0.0, 1.0)))
+
+
+def _axes(back: Vector) -> np.ndarray:
+    """Return right, up and back of a camera as columns (3, 3)."""
+    return np.array(back.to_track_quat("Z", "Y").to_matrix())
+
+
+def _viewpoint(points: np.ndarray, axes: np.ndarray, aspect: float) -> np.ndarray:
+    """Return where a camera sees all points (n, 3); its axes (3, 3) are right, up and back, as columns."""
+    middle = axes @ _middle(points @ axes)
+    return middle + axes[:, 2] * _ROOM * _needed(points, middle, axes, aspect)
+
+
+def _needed(points: np.ndarray, middle: np.ndarray, axes: np.ndarray, aspect: float) -> float:
+    """Return how far from the middle (3,) of its picture a camera has to stand to see all points, m."""
+    seen = (points - middle) @ axes
+    half_width = _SENSOR_MM / 2.0 / _LENS_MM
+    return float((np.maximum(abs(seen[:, 0]), abs(seen[:, 1]) * aspect) / half_width + seen[:, 2]).max())
+
+
+def _middle(points: np.ndarray) -> np.ndarray:
+    return (points.min(axis=0) + points.max(axis=0)) / 2.0
+
+
+_PUT_AWAY = "bda_put_away"
+"""Property of a hidden object: whether it was hidden in renders before, and whether it was the scene's camera."""
+
+_NEAR_M = 1e-3
+_PLACES = {
+    "MESH": ("Cube", Vector((0.0, 0.0, 0.0))),
+    "LIGHT": ("Light", Vector((4.0762, 1.0055, 5.9039))),
+    "CAMERA": ("Camera", Vector((7.3589, -6.9258, 4.9583))),
+}
+_CUBE_CORNERS = 8
+
+
+def put_startup_objects_away(scene: bpy.types.Scene) -> None:
+    """Hide the objects of Blender's start-up file that are as they were, and take their camera from the scene."""
+    for obj in scene.objects:
+        if _PUT_AWAY not in obj and _is_untouched(obj):
+            obj[_PUT_AWAY] = [obj.hide_render, scene.camera == obj]
+            obj.hide_render = True
+            for layer in scene.view_layers:
+                if obj.name in layer.objects:
+                    obj.hide_set(True, view_layer=layer)
+            if scene.camera == obj:
+                scene.camera = None
+
+
+def bring_startup_objects_back(scene: bpy.types.Scene) -> None:
+    """Show what was hidden, and give the scene its camera back where it has none now."""
+    for obj in scene.objects:
+        if _PUT_AWAY in obj:
+            hidden, was_camera = kept_numbers(obj, _PUT_AWAY, (0.0, 0.0))
+            del obj[_PUT_AWAY]
+            obj.hide_render = bool(hidden)
+            for layer in scene.view_layers:
+                if obj.name in layer.objects:
+                    obj.hide_set(False, view_layer=layer)
+            if was_camera and scene.camera is None:
+                scene.camera = obj
+
+
+def _is_untouched(obj: bpy.types.Object) -> bool:
+    if obj.type not in _PLACES or obj.library or obj.rigid_body or obj.modifiers or obj.parent:
+        return False
+    name, position = _PLACES[obj.type]
+    is_there = obj.name == name and (obj.matrix_basis.translation - position).length < _NEAR_M
+    if obj.type != "MESH":
+        return is_there and not obj.animation_data
+    return is_there and len(obj.data.vertices) == _CUBE_CORNERS and obj.matrix_basis == Matrix.Identity(4)
+
 
 _SURROUNDINGS = "Surroundings"
 _SKY = "Sky"
@@ -165,3 +294,59 @@ def _put_sky_up(scene: bpy.types.Scene) -> None:
     link(ramp.outputs[0], background.inputs["Color"])
     link(background.outputs[0], output.inputs["Surface"])
     scene.world = sky
+
+
+_OF_FINISH = {
+    Finish.CAST: SurfaceMaterial.CONCRETE,
+    Finish.BROKEN: SurfaceMaterial.BROKEN_CONCRETE,
+    Finish.ROAD: SurfaceMaterial.ASPHALT,
+}
+_OF_KIND = {
+    Kind.BALL: SurfaceMaterial.STEEL,
+    Kind.TOOL: SurfaceMaterial.STEEL,
+    Kind.CRANE: SurfaceMaterial.PAINT,
+    Kind.GROUND: SurfaceMaterial.SOIL,
+}
+_OF_SURFACE = {"water": SurfaceMaterial.WATER, "carriageway": SurfaceMaterial.ASPHALT}
+"""Of surfaces on the ground, by their kind."""
+
+
+def stage(
+    scene: bpy.types.Scene,
+    shards: Sequence[bpy.types.Object],
+    model: Model,
+    points: np.ndarray,
+    view: PictureSettings | None = None,
+) -> None:
+    """Make a demolition look real that was just built of a model, with its shards in the model's order.
+
+    The camera sees points (k, 3), m; without a view it stands beside the road. Nothing of this takes part in the
+    simulation.
+    """
+    _finish_shards(shards, model)
+    _finish_others(bodies_of(scene))
+    surround(scene, points, view)
+    for layer in scene.view_layers:
+        hide_symbols(layer, scene, hidden=True)
+
+
+def _finish_shards(shards: Sequence[bpy.types.Object], model: Model) -> None:
+    """Give the faces of shards the materials of cast and broken concrete and of asphalt."""
+    materials = [material_of(_OF_FINISH[finish]) for finish in Finish]
+    of_shards = finishes(model.shards, model.members, model.member_of_shard)
+    for shard, of_faces in zip(shards, of_shards, strict=True):
+        for material in materials:
+            shard.data.materials.append(material)
+        shard.data.polygons.foreach_set("material_index", of_faces.astype(np.int32))
+        shard[BUILT_AT] = tuple(shard.location)
+
+
+def _finish_others(bodies: Iterable[bpy.types.Object]) -> None:
+    """Give ball, tools, crane and ground their materials; a ball is smooth."""
+    for body in bodies:
+        kind = kind_of(body)
+        if kind in _OF_KIND and not body.data.materials:
+            surface = _OF_SURFACE.get(member_of(body)[1], _OF_KIND[kind]) if kind == Kind.GROUND else _OF_KIND[kind]
+            body.data.materials.append(material_of(surface))
+        if kind == Kind.BALL:
+            body.data.polygons.foreach_set("use_smooth", np.ones(len(body.data.polygons), bool))

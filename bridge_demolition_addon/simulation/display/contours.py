@@ -9,9 +9,7 @@ import bpy
 import numpy as np
 
 from ...display.contour_quantities import ContourQuantity
-from ...display.contour_ranges import ContourSettings
-from ...display.contours import ContourFrame
-from ...display.stage_contours import StageContours
+from ...display.contours import ContourFrame, ContourSettings, StageContours
 from ...errors import ContourError
 from ...scene.bodies import Kind, bodies_of, kind_of
 from ...scene.rendering.body_colours import paint, show_colours, show_materials, unpaint

@@ -11,8 +11,7 @@ from pathlib import Path
 import bpy
 import numpy as np
 
-from ...display.contour_ranges import ContourSettings
-from ...display.contours import ContourSeries
+from ...display.contours import ContourSeries, ContourSettings
 from ...display.frames import film_rows
 from ...errors import ContourError, OutputError
 from ...model.run_folder.files import FILM_FILE, SLOW_FILM_FILE

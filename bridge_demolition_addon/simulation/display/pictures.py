@@ -19,9 +19,9 @@ from ...model.scenario.recording import PictureSettings, Renderer
 from ...model.structure.blast_zones import PlacedZone, placed_zones
 from ...scene.blast.charges import charge_objects, show_never, show_until
 from ...scene.demolition import first_frame_after
+from ...scene.rendering.markers import ShownZone, show_zones
 from ...scene.rendering.picture_scene import dressed_pictures
 from ...scene.rendering.stills import prepared_for_pictures, render_picture, renderer_of
-from ...scene.rendering.zone_markers import ShownZone, show_zones
 from ...scene.world import START_FRAME
 from ...system.disk import writing
 from ...system.processor import processor_count

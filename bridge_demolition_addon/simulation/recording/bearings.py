@@ -8,7 +8,7 @@ from ...engineering.mechanics.bearing_loads import BearingLoads
 from ...model.results.bearing_extremes import BearingExtreme, BearingExtremes
 from ...model.results.frames import Frame
 from ...model.run_folder.logs import FrameBearings
-from ...scene.connections.bearings import NamedBearings
+from ...scene.connections.elasticity import NamedBearings
 
 
 class RecordedBearings:

@@ -18,8 +18,7 @@ from ...model.blast.explosion import Explosion, StepLoads, no_loads, sum_of_load
 from ...model.blast.settings import Apply
 from ...model.schema import given
 from ...scene.blast.charges import blast_of, charges_of
-from ...scene.blast.field_reach import FieldReach, isolating_reaches
-from ...scene.blast.force_fields import ForceFields, fields_of, has_other_fields
+from ...scene.blast.force_fields import FieldReach, ForceFields, fields_of, has_other_fields, isolating_reaches
 from ...scene.run_setup import RunSetup
 from .drivers import Driver
 

@@ -18,7 +18,7 @@ from ...engineering.mechanics.work import FrameWork, Motion, WorkAccumulator
 from ...errors import LayoutError, SimulationError
 from ...model.results.frames import BallHistory, ContactHistory, Frame
 from ...model.schema import given
-from ...scene.connections.bearings import named_bearings_of
+from ...scene.connections.elasticity import named_bearings_of
 from ...scene.run_setup import RunSetup
 from ...scene.tools.ground_motion import rows_on_moving_ground
 from .blast import Blast

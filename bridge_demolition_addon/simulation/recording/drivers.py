@@ -10,7 +10,7 @@ from ...bullet.constraints import ConstraintTable
 from ...bullet.world import BulletWorld
 from ...engineering.arithmetic import power
 from ...errors import SimulationError
-from ...scene.connections.breaking_settings import Breaking
+from ...scene.connections.constraints import Breaking
 
 _SINGLE_PRECISION = 1e-6
 

@@ -41,7 +41,7 @@ from ...engineering.mechanics.section_forces import section_axes
 from ...model.results.inventory import Inventory
 from ...model.schema import given
 from ...model.structure.tendons import ModelTendons
-from ...scene.connections.breaking_settings import Breaking
+from ...scene.connections.constraints import Breaking
 from ...scene.world import scene_time_step
 from .lifting_constraints import LiftingConstraints
 from .standing_bars import StandingBarsOfZones

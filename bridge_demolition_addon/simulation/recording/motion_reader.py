@@ -17,7 +17,7 @@ from ...errors import CoreError, LayoutError, SimulationError
 from ...model.results.frames import Frame
 from ...model.results.inventory import Inventory
 from ...scene.run_setup import RunSetup
-from ...scene.time_scale import time_step_at
+from ...scene.world import time_step_at
 
 READING = "change of momentum between frames"
 

@@ -22,14 +22,12 @@ from ...model.results.inventory import Inventory
 from ...model.schema import given
 from ...scene.as_built import build_of, changed_bodies, check_start
 from ...scene.bodies import bodies_of
-from ...scene.connections.bearings import named_bearings_of
-from ...scene.connections.breaking_settings import rewrite_thresholds
-from ...scene.connections.constraints import connections_of
-from ...scene.connections.elasticity import is_elastic
+from ...scene.connections.constraints import connections_of, rewrite_thresholds
+from ...scene.connections.elasticity import is_elastic, named_bearings_of
 from ...scene.run_setup import RunSetup, run_setup_of
-from ...scene.time_scale import time_step_at
 from ...scene.tools.ball import begin_lifts, lifts_of
 from ...scene.tools.cables import hide_cables
+from ...scene.world import time_step_at
 from .bars import RecordedBars
 from .bearings import RecordedBearings
 from .blast import Blast, check_blast

@@ -9,8 +9,7 @@ from ...bullet.time_control import release_time, set_substeps, set_time_scale
 from ...engineering.geometry.vectors import dot
 from ...errors import LayoutError, SimulationError
 from ...model.results.frames import Frame
-from ...scene.time_scale import time_is_animated, time_step_at
-from ...scene.world import farthest_per_substep_of
+from ...scene.world import farthest_per_substep_of, time_is_animated, time_step_at
 
 
 class RunTiming:

@@ -14,7 +14,7 @@ import numpy as np
 
 from ...errors import OutputError
 from ..disk import is_in_place, writing
-from .own_copy import mapped_copy
+from .archive import mapped_copy
 
 _MAGIC = np.lib.format.magic(2, 0)
 

@@ -22,8 +22,7 @@ from ...model.results.arrays import load_results, results_in
 from ...model.run_folder.summary import read_summary
 from ...report.findings import IMPACT, Finding, findings
 from ...report.run_folder import read_run
-from ...scene.time_scale import simulated_time_s
-from ...scene.world import FIRST_STEP_FRAME
+from ...scene.world import FIRST_STEP_FRAME, simulated_time_s
 from ...simulation.blender_events import contours_of, shown_results
 from ..ground.decorator import plan_of
 from ..languages.words import translated

@@ -13,10 +13,8 @@ import gpu
 import numpy as np
 from gpu_extras.batch import batch_for_shader
 
-from ...display.colour_bar import colour_bar
 from ...display.colour_scale import colours
-from ...display.contour_ranges import ContourSettings
-from ...display.contours import ContourFrame
+from ...display.contours import ContourFrame, ContourSettings, colour_bar
 from ...display.force_arrows import arrows, body_forces, connection_forces, contact_forces
 from ...model.blast.charges import Charge
 from ...model.blast.damage import THRESHOLDS, ring_radii

@@ -7,7 +7,7 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
 from ...display.colour_scale import ColourMap
 from ...display.contour_quantities import ContourQuantity
-from ...display.contour_ranges import ContourSettings, RangeKind
+from ...display.contours import ContourSettings, RangeKind
 from ...errors import DemolitionError
 from ...model.blast.damage import THRESHOLDS
 from ...scene.rendering.body_colours import SHADED_LIGHT

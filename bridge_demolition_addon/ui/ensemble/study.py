@@ -15,7 +15,7 @@ from ...model.schema import subtable_fields
 from ...model.study.file import Study, read_study, study_of
 from ...model.study.sampled_runs import sampled_run
 from ...model.study.settings import StudySettings
-from ...report.ensemble.study_runs import StudyRuns, read_study_runs
+from ...report.ensemble.reported_ensemble import StudyRuns, read_study_runs
 from ...report.wording.study import study_sentences
 from ...studies.session import EnsembleSession
 from ..operators import UndoableAction

@@ -38,8 +38,7 @@ from ...model.structure.blast_zones import PlacedZone, placed_zones
 from ...scene.blast.charges import blast_of, charges_of
 from ...scene.bodies import Kind, bodies_of, is_uneven_ground, kind_of, triangle_mesh
 from ...scene.rendering.ground import ground_of as ground_in
-from ...scene.time_scale import simulated_time_s
-from ...scene.world import FIRST_STEP_FRAME
+from ...scene.world import FIRST_STEP_FRAME, simulated_time_s
 from ...simulation.blender_events import shown_results
 from ..languages.words import translated
 from ..preview.zone_handles import zones_shown

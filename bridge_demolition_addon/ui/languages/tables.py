@@ -10,7 +10,7 @@ from pathlib import Path
 
 import bpy
 
-from ...report.languages.table import texts_of_kinds
+from ...report.languages.translation import texts_of_kinds
 from ..scenario.key_tooltips import tooltip_of, translated_tooltip
 from ..scenario.prop import all_tables, label_of, shown_keys, title_of, unit_in_label
 from .words import CONTEXT

@@ -7,7 +7,7 @@ from functools import lru_cache
 import bpy
 import numpy as np
 
-from ...display.bar_lines import bar_lines
+from ...display.bridge_preview import bar_lines
 from ...errors import DemolitionError, text_of
 from ...model.bridge.preparation import prepared_members
 from ...model.reinforcement.design import all_layers

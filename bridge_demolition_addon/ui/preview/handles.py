@@ -15,8 +15,7 @@ from ...display.dragging import dragged_along, dragged_level
 from ...errors import GeometryError, ScenarioError
 from ...model.bridge import deck_top
 from ...scene.blast.charges import charge_objects
-from ...scene.time_scale import simulated_time_s
-from ...scene.world import FIRST_STEP_FRAME
+from ...scene.world import FIRST_STEP_FRAME, simulated_time_s
 from ..languages.words import translated
 from ..operators import Action, recording_runs, refused
 from ..scene_units import length_text

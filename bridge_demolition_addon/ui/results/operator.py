@@ -21,9 +21,9 @@ from ...exports.formats import FORMATS, new_export
 from ...model.debris.survey import SURVEY_FILES
 from ...model.run_folder.files import FORCE_CHART, REPORT_PAGE, REPORT_PDF, REPORT_WORD
 from ...model.run_folder.folder import keep_site
-from ...report.document.word_library import word_is_there
-from ...report.languages.table import ENGLISH, language_names
-from ...scene.surveys import show_survey
+from ...report.document.word import word_is_there
+from ...report.languages.translation import ENGLISH, language_names
+from ...scene.rendering.ground import show_survey
 from ...simulation.blender_events import shown_results
 from ...simulation.kept_run import folder_of_run, has_run, is_run_of
 from ...system.disk import whole_file, writing

@@ -19,7 +19,7 @@ from ...model.scenario import Exclusion, Scenario, TimeSettings
 from ...model.scenario.file import scenario_from_text, scenario_text
 from ...model.scenario.kept import values_from_text, values_text
 from ...model.schema import Table, holds_many, is_optional, key_fields, key_name, key_of, subtable_class
-from ...scene.time_scale import time_settings
+from ...scene.world import time_settings
 from ..languages.words import translated
 from .prop import USE, is_written_out, shown_tables, vector_length
 from .values import inner_of, list_of, scenario_of, show_inner

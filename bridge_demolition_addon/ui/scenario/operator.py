@@ -10,12 +10,11 @@ from ...model.scenario.file import read_scenario, scenario_text
 from ...model.sequence.checked_model import checked_model
 from ...model.sequence.lifts import pick_warnings
 from ...model.stages.stability_by_statics import stability_of
-from ...scene.as_built import keep_as_built
+from ...scene.as_built import keep_as_built, keep_stability
 from ...scene.bodies import lacks_ground
 from ...scene.demolition import build_demolition, check_replaceable
 from ...scene.removal import remove_demolition, remove_loose_connections
-from ...scene.rendering.staging import stage
-from ...scene.stability import keep_stability
+from ...scene.rendering.surroundings import stage
 from ...simulation.blender_events import shown_results
 from ...simulation.kept_run import forget_run
 from .. import messages

@@ -10,7 +10,7 @@ from bridge_demolition_addon.engineering.geometry.hulls import convex_hulls
 from bridge_demolition_addon.model.blast.charges import Charge
 from bridge_demolition_addon.model.blast.explosion import Explosion, StepLoads, sum_of_loads
 from bridge_demolition_addon.model.blast.settings import BlastSettings
-from bridge_demolition_addon.scene.blast.field_reach import LONGEST_M, WIDEST_M, isolating_reaches
+from bridge_demolition_addon.scene.blast.force_fields import LONGEST_M, WIDEST_M, isolating_reaches
 
 CUBE = np.array([[x, y, z] for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)])
 IMPULSE_AT_5_PA_S = 40.62

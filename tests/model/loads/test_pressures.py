@@ -23,7 +23,7 @@ from bridge_demolition_addon.model.scenario import (
     TimeSettings,
 )
 from bridge_demolition_addon.model.sequence.checked_model import ModelWorksite, checked_model
-from bridge_demolition_addon.report.wording.sequence import means_text, planned_steps
+from bridge_demolition_addon.report.sections.planned_sequence import means_text, planned_steps
 from bridge_demolition_addon.scene.demolition import build_demolition
 from bridge_demolition_addon.scene.run_tables import keep_tables, run_tables_of
 from bridge_demolition_addon.simulation.playback import Playing

@@ -91,7 +91,7 @@ def test_a_study_of_a_scenario_with_one_name_twice_is_refused(tmp_path: Path):
 
 def test_no_member_of_ones_own_is_called_the_ground():
     own = Geometry(name="ground", file="a.stl", density_kg_m3=2500.0)
-    with pytest.raises(ScenarioError, match='geometry.name is "ground": expected another name'):
+    with pytest.raises(ScenarioError, match=r'geometry\.name is "ground": expected another name'):
         replace(I235, geometry=(own,))
     replace(I235, geometry=(replace(own, name="ground slab"),))
 

@@ -9,7 +9,7 @@ from support.stage_folders import with_stages
 from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.errors import OutputError
 from bridge_demolition_addon.report.languages import letters
-from bridge_demolition_addon.report.languages.table import language_table
+from bridge_demolition_addon.report.languages.translation import language_table
 from bridge_demolition_addon.report.write import write_report
 
 NAME = "Letters of Tests"

@@ -10,7 +10,8 @@ import pytest
 from support.run_folders import flying_shards, keep_run
 
 from bridge_demolition_addon.cli.progress import Silence
-from bridge_demolition_addon.report.document import page_style, pdf
+from bridge_demolition_addon.report.document import page as page_style
+from bridge_demolition_addon.report.document import pdf
 from bridge_demolition_addon.report.write import write_report
 
 pytestmark = pytest.mark.long  # test_nothing_is_missing.py shows of every text that it has a translation

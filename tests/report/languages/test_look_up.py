@@ -8,9 +8,8 @@ from bridge_demolition_addon.engineering.unit_systems import UnitSystem
 from bridge_demolition_addon.errors import OutputError
 from bridge_demolition_addon.report.document.blocks import Column, DataTable, Document, Paragraph, Section
 from bridge_demolition_addon.report.languages.letters import pieces
-from bridge_demolition_addon.report.languages.table import ReportTexts, check_language
 from bridge_demolition_addon.report.languages.translated_report import notes_at_head, translated_document, with_notes
-from bridge_demolition_addon.report.languages.translation import IN_ENGLISH, Translation
+from bridge_demolition_addon.report.languages.translation import IN_ENGLISH, ReportTexts, Translation, check_language
 from bridge_demolition_addon.texts import DOWN, Quantity, Text, Unit, distance_to_keep, joined, point_text
 
 TEXTS = {

@@ -14,9 +14,8 @@ from bridge_demolition_addon.engineering.unit_systems import IMPERIAL, UnitSyste
 from bridge_demolition_addon.model.scenario.reporting import REPORT_LANGUAGES
 from bridge_demolition_addon.report.document.blocks import DataTable, Paragraph
 from bridge_demolition_addon.report.document.drawings import drawings
-from bridge_demolition_addon.report.languages.table import ENGLISH, language_names, language_table
 from bridge_demolition_addon.report.languages.translated_report import NOTE, translated_document
-from bridge_demolition_addon.report.languages.translation import Translation
+from bridge_demolition_addon.report.languages.translation import ENGLISH, Translation, language_names, language_table
 from bridge_demolition_addon.texts import Text
 
 NAMES_WITH_UNITS = ("z = 2.45 m", "y = 0.00 m", "41 m", "house <5 kPa")

@@ -28,7 +28,7 @@ def built(blender, text):
 
 
 def test_bearings_come_back_as_they_were(blender):
-    from bridge_demolition_addon.scene.connections.bearings import bearings_of
+    from bridge_demolition_addon.scene.connections.elasticity import bearings_of
 
     model, connections = built(blender, deck_text((SLIDING, PINNED_AND_ROCKERS[1]), spans=(10.0,), shards=12))
     found, kept = bearings_of(connections), model.bearings
@@ -38,7 +38,7 @@ def test_bearings_come_back_as_they_were(blender):
 
 
 def test_bearings_of_rigid_connections_have_names_and_no_springs(blender):
-    from bridge_demolition_addon.scene.connections.bearings import bearings_of
+    from bridge_demolition_addon.scene.connections.elasticity import bearings_of
 
     text = deck_text(spans=(10.0,), shards=12, stiffness="rigid").replace("elastic_modulus_n_mm2 = 30000\n", "")
     model, connections = built(blender, text)
@@ -51,7 +51,7 @@ def test_bearings_of_rigid_connections_have_names_and_no_springs(blender):
     "wrong", ["", "nonsense", -1, [], [1.0], {"a": 1}, [0.1, 0.0, 0.2, 1e6, 0.0, 0.0, 1.0, -1.0, 1.0, 1.0]]
 )
 def test_edits_by_hand_are_refused(blender, wrong):
-    from bridge_demolition_addon.scene.connections.bearings import bearings_of
+    from bridge_demolition_addon.scene.connections.elasticity import bearings_of
 
     model, connections = built(blender, deck_text(spans=(10.0,), shards=12))
     connections[model.bearings.springs.rows[0]]["bda_pads"] = wrong

@@ -7,7 +7,7 @@ from support.blocks import Blocks
 
 from bridge_demolition_addon.engineering.timing.timeline import TimeStep
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
-from bridge_demolition_addon.scene.connections.breaking_settings import rewrite_thresholds, set_breaking_force
+from bridge_demolition_addon.scene.connections.constraints import rewrite_thresholds, set_breaking_force
 
 MASS_KG = 100.0
 WEIGHT_N = MASS_KG * STANDARD_GRAVITY_M_S2

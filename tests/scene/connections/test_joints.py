@@ -22,7 +22,7 @@ PLACE_M = 1e-6
 
 
 def join(blocks, connections, *joints):
-    from bridge_demolition_addon.scene.connections.joints import set_joints
+    from bridge_demolition_addon.scene.connections.constraints import set_joints
 
     set_joints(connections, joints, np.arange(len(joints)), blocks.time.step)
 
@@ -101,7 +101,7 @@ def test_a_free_turn_carries_no_moment_about_its_axis_and_all_others(blender, tm
 
 def test_each_connection_breaks_at_its_own_strength(blender, tmp_path):
     """Four blocks of the same weight hang from 0.01 m²: strong, weak, by a force that holds, by one that does not."""
-    from bridge_demolition_addon.scene.connections.breaking_settings import Breaking, keep_breaking
+    from bridge_demolition_addon.scene.connections.constraints import Breaking, keep_breaking
 
     blocks, area = Blocks(), 0.01
     stress = WEIGHT_N / area

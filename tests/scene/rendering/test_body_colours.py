@@ -11,7 +11,7 @@ from support.long_cases import long_but
 
 from bridge_demolition_addon.display.colour_scale import ColourMap, colours, linear
 from bridge_demolition_addon.display.contour_quantities import ContourQuantity
-from bridge_demolition_addon.display.contour_ranges import ContourSettings, RangeKind
+from bridge_demolition_addon.display.contours import ContourSettings, RangeKind
 from bridge_demolition_addon.errors import ContourError, OutputError
 
 FRAMES = 6

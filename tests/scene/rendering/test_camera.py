@@ -26,8 +26,8 @@ def test_camera_sees_everything_and_wastes_little(blender, points, size):
     from bpy_extras.object_utils import world_to_camera_view
     from mathutils import Vector
 
-    from bridge_demolition_addon.scene.rendering.camera import aim_camera
     from bridge_demolition_addon.scene.rendering.stills import prepare_pictures
+    from bridge_demolition_addon.scene.rendering.surroundings import aim_camera
 
     scene = blender.context.scene
     prepare_pictures(scene, PictureSettings(width_px=size[0], height_px=size[1]))
@@ -42,7 +42,7 @@ def test_camera_sees_everything_and_wastes_little(blender, points, size):
 
 
 def test_camera_stands_above_the_ground_beside_the_road(blender):
-    from bridge_demolition_addon.scene.rendering.camera import aim_camera
+    from bridge_demolition_addon.scene.rendering.surroundings import aim_camera
 
     aim_camera(blender.context.scene, BRIDGE, 160 / 90)
     x, y, z = blender.context.scene.camera.location
@@ -54,8 +54,8 @@ def test_a_picture_shows_the_bridge_and_the_ball(blender, tmp_path):
     from mathutils import Vector
 
     from bridge_demolition_addon.scene.demolition import build_demolition
-    from bridge_demolition_addon.scene.rendering.staging import stage
     from bridge_demolition_addon.scene.rendering.stills import prepare_pictures, render_picture
+    from bridge_demolition_addon.scene.rendering.surroundings import stage
 
     scenario = replace(I235, fracture=replace(I235.fracture, shards=20))
     scene, model = blender.context.scene, build_model(scenario)
@@ -88,8 +88,8 @@ def test_a_picture_shows_the_bridge_and_the_ball(blender, tmp_path):
 def test_a_picture_shows_a_charge_until_it_goes_off(blender, tmp_path):
     from bridge_demolition_addon.model.blast.charges import Charge
     from bridge_demolition_addon.scene.blast.charges import create_charges, show_never, show_until
-    from bridge_demolition_addon.scene.rendering.camera import aim_camera
     from bridge_demolition_addon.scene.rendering.stills import prepare_pictures, render_picture
+    from bridge_demolition_addon.scene.rendering.surroundings import aim_camera
 
     scene = blender.context.scene
     charges = [

@@ -12,8 +12,8 @@ from support.scenarios import SHORT_RUN
 from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.display.approaches import approaches
 from bridge_demolition_addon.display.dressing import LOOKS_ONLY, Stuff
+from bridge_demolition_addon.display.moved_surfaces import boxes_of_bodies, moved, parted
 from bridge_demolition_addon.display.road_furniture import road_furniture
-from bridge_demolition_addon.display.shard_motion import boxes_of_bodies, moved, parted
 from bridge_demolition_addon.model.results.arrays import load_results
 from bridge_demolition_addon.model.scenario.file import read_scenario
 

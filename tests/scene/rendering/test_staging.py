@@ -16,7 +16,7 @@ from bridge_demolition_addon.model.structure.model import build_model
 from bridge_demolition_addon.scene.bodies import Kind, bodies_of, kind_of
 from bridge_demolition_addon.scene.demolition import build_demolition
 from bridge_demolition_addon.scene.removal import remove_demolition
-from bridge_demolition_addon.scene.rendering.staging import stage
+from bridge_demolition_addon.scene.rendering.surroundings import stage
 from bridge_demolition_addon.scene.visibility import symbols_are_hidden
 
 SPAN = replace(I235, fracture=replace(I235.fracture, shards=20))

@@ -11,7 +11,7 @@ from support.drilled_columns import ZONE, column_members
 from bridge_demolition_addon.display.zone_boxes import flash_of, rods, zone_rods
 from bridge_demolition_addon.model.scenario.recording import PictureSettings
 from bridge_demolition_addon.model.structure.blast_zones import placed_zone
-from bridge_demolition_addon.scene.rendering.zone_markers import ShownZone, remove_zones, show_zones
+from bridge_demolition_addon.scene.rendering.markers import ShownZone, remove_zones, show_zones
 
 PLACED = placed_zone(ZONE, column_members())
 
@@ -34,8 +34,8 @@ def test_holes_stick_out_of_the_side_that_is_drilled():
 
 
 def test_pictures_show_a_zone_until_it_fires_and_a_flash_as_it_does(blender, tmp_path):
-    from bridge_demolition_addon.scene.rendering.camera import aim_camera
     from bridge_demolition_addon.scene.rendering.stills import prepare_pictures, render_picture
+    from bridge_demolition_addon.scene.rendering.surroundings import aim_camera
 
     scene = blender.context.scene
     failed = placed_zone(replace(ZONE, name="failed", middle_m=3.2, delay_ms=300.0), column_members())

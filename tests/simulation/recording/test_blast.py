@@ -19,7 +19,7 @@ from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.errors import SimulationError
 from bridge_demolition_addon.scene.blast.force_fields import build_force_objects, force_objects
 from bridge_demolition_addon.scene.bodies import bodies_of
-from bridge_demolition_addon.scene.time_scale import animate_time_scale
+from bridge_demolition_addon.scene.world import animate_time_scale
 from bridge_demolition_addon.simulation.blender_events import start_recording, stop_recording
 from bridge_demolition_addon.simulation.recording.recorder import Recording
 

@@ -6,7 +6,7 @@ import pytest
 from support.blocks import Blocks
 
 from bridge_demolition_addon.display.contour_quantities import ContourQuantity
-from bridge_demolition_addon.display.contour_ranges import RangeKind
+from bridge_demolition_addon.display.contours import RangeKind
 
 FRAMES = 4
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from support.checkout import SMALL
 
-from bridge_demolition_addon.display.contour_ranges import ContourSettings
+from bridge_demolition_addon.display.contours import ContourSettings
 from bridge_demolition_addon.model.results.arrays import load_results
 from bridge_demolition_addon.simulation.blender_events import running_recording, shown_results
 from bridge_demolition_addon.ui.results.shown_run import explained_peak, lines_of

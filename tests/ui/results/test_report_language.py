@@ -4,7 +4,7 @@
 import pytest
 from support.run_folders import flying_shards, keep_run
 
-from bridge_demolition_addon.report.languages.table import language_names
+from bridge_demolition_addon.report.languages.translation import language_names
 from bridge_demolition_addon.ui.results.operator import language_of_blender
 from bridge_demolition_addon.ui.scenario.values import scenario_of
 
