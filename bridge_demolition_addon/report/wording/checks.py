@@ -62,7 +62,7 @@ CHECKS = (
 )
 
 
-TABLE = Path(__file__).with_suffix(".csv")
+TABLE = Path(__file__).with_name("measurements.csv")
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,4 +1,4 @@
-"""Force-field empties that push one body each, as far as each reaches.
+"""Force-field empties that push one body each, and how far a field acts.
 
 The loads of a frame are written into Blender's evaluated copies of the empties. The strength of the empties stays 0: so
 no undo, crash or saved file leaves one switched on, and the frames that Blender has cached stay valid.
