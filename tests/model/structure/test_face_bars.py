@@ -22,10 +22,14 @@ TOP = BarLayer(members=("deck",), side="top", depth_m=0.05, area_mm2=8_000.0)
 
 
 @cache
-def model_with(*layers, **settings):
+def model_with(*layers, ductile_elongation_m=0.1, **settings):
     """The I-235 span in 60 irregular shards, with bars."""
     connections = ConnectionSettings(
-        type="FIXED", method="face", material="reinforced concrete slab", ductile_elongation_m=0.1, **settings
+        type="FIXED",
+        method="face",
+        material="reinforced concrete slab",
+        ductile_elongation_m=ductile_elongation_m,
+        **settings,
     )
     fracture = replace(I235.fracture, shards=60)
     return build_model(replace(I235, fracture=fracture, connections=connections, reinforcement=layers))
@@ -93,6 +97,17 @@ def test_two_layers_bear_both_moments():
 def test_a_stronger_bridge_has_stronger_bars():
     weak, strong = model_with(BOTTOM), model_with(BOTTOM, strength_factor=2.0)
     np.testing.assert_allclose(strong.bars.yield_n, 2.0 * weak.bars.yield_n, rtol=1e-9)
+
+
+@pytest.mark.parametrize("factor", [0.5, 2.0])
+def test_a_factor_on_all_strengths_is_one_on_bond(factor):
+    """Straight bars are held by bond over π d l, and yield at f_y A: where both are so many times theirs, l stays."""
+    settings = {"stiffness": "elastic", "ductile_elongation_m": None}
+    layer = replace(BOTTOM, anchored=False, diameter_mm=32.0)
+    own, scaled = (model_with(layer, strength_factor=value, **settings) for value in (1.0, factor))
+    np.testing.assert_allclose(scaled.bars.yield_n, factor * own.bars.yield_n, rtol=1e-9)
+    np.testing.assert_allclose(scaled.bars.openings_m, own.bars.openings_m, rtol=1e-9)
+    assert (own.bars.yield_n < 0.99 * model_with(replace(layer, anchored=True), **settings).bars.yield_n).any()
 
 
 def test_columns_have_upright_bars():
