@@ -17,6 +17,6 @@ def main() -> None:
 
 
 def _read(request: dict[str, Any]) -> dict[str, Any]:
-    vertices, triangles = loaded(Path(request["path"]), is_cloud=request["is_cloud"])
+    vertices, triangles = loaded(Path(request["path"]), is_cloud=request["is_cloud"], part=request["part"])
     np.savez(request["kept"], vertices=vertices, triangles=triangles)
     return {"vertices": len(vertices)}

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import tempfile
+from collections.abc import Sequence
+from fnmatch import fnmatchcase
 from functools import lru_cache
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
@@ -25,6 +28,9 @@ _TEXT_FILES = (".obj",)
 
 _LIMIT_S = 600.0
 
+_LISTED = 10
+"""Objects of a file that a message names."""
+
 _REMEMBERED_BYTES = 10 * MEGABYTE
 """Size up to which a binary mesh is remembered: the runs of a study read the same files again and again."""
 _UNREADABLE = "{}: cannot be read as {}: it is damaged, or of another kind than its name says; export it again"
@@ -37,9 +43,9 @@ def from_y_up(vertices: np.ndarray) -> np.ndarray:
     return transformed(_FROM_Y_UP, vertices)
 
 
-def read_mesh(path: Path) -> TriangleMesh:
-    """Return the mesh in a file that ends in one of `MESH_FILES`, as it is."""
-    return TriangleMesh(*_read(path, is_cloud=False))
+def read_mesh(path: Path, part: str | None = None) -> TriangleMesh:
+    """Return the mesh in a file that ends in one of `MESH_FILES`, as it is, or that of its objects of a name alone."""
+    return TriangleMesh(*_read(path, is_cloud=False, part=part))
 
 
 def read_points_of_mesh(path: Path) -> np.ndarray:
@@ -47,27 +53,30 @@ def read_points_of_mesh(path: Path) -> np.ndarray:
     return _read(path, is_cloud=True)[0]
 
 
-def _read(path: Path, *, is_cloud: bool) -> tuple[np.ndarray, np.ndarray]:
+def _read(path: Path, *, is_cloud: bool, part: str | None = None) -> tuple[np.ndarray, np.ndarray]:
     check_file(path, MOST_BYTES)
     if path.suffix.lower() in _TEXT_FILES:
-        return loaded(path, is_cloud=is_cloud)
+        return loaded(path, is_cloud=is_cloud, part=part)
     found = path.stat()
     if found.st_size > _REMEMBERED_BYTES:
-        return _read_apart(path, is_cloud=is_cloud)
-    vertices, triangles = _remembered(path.absolute(), found.st_mtime_ns, found.st_size, is_cloud=is_cloud)
+        return _read_apart(path, is_cloud=is_cloud, part=part)
+    changed_and_size = found.st_mtime_ns, found.st_size
+    vertices, triangles = _remembered(path.absolute(), *changed_and_size, is_cloud=is_cloud, part=part)
     return vertices.copy(), triangles.copy()
 
 
 @lru_cache(maxsize=64)
-def _remembered(path: Path, changed_ns: int, size: int, *, is_cloud: bool) -> tuple[np.ndarray, np.ndarray]:
+def _remembered(
+    path: Path, changed_ns: int, size: int, *, is_cloud: bool, part: str | None
+) -> tuple[np.ndarray, np.ndarray]:
     """Return what a file holds; one that was changed since is read again."""
-    return _read_apart(path, is_cloud=is_cloud)
+    return _read_apart(path, is_cloud=is_cloud, part=part)
 
 
-def _read_apart(path: Path, *, is_cloud: bool) -> tuple[np.ndarray, np.ndarray]:
+def _read_apart(path: Path, *, is_cloud: bool, part: str | None) -> tuple[np.ndarray, np.ndarray]:
     with tempfile.TemporaryDirectory(prefix="bda-mesh-") as folder:
         kept = Path(folder) / "mesh.npz"
-        request = {"path": str(path.absolute()), "kept": str(kept), "is_cloud": is_cloud}
+        request = {"path": str(path.absolute()), "kept": str(kept), "is_cloud": is_cloud, "part": part}
         try:
             isolated("model.mesh_program", request, _LIMIT_S)
         except UnreadableError as error:
@@ -76,12 +85,17 @@ def _read_apart(path: Path, *, is_cloud: bool) -> tuple[np.ndarray, np.ndarray]:
             return arrays["vertices"], arrays["triangles"]
 
 
-def loaded(path: Path, *, is_cloud: bool) -> tuple[np.ndarray, np.ndarray]:
+def loaded(path: Path, *, is_cloud: bool, part: str | None = None) -> tuple[np.ndarray, np.ndarray]:
     """Return vertices (v, 3) and triangles (t, 3) of a file, read in this process; of a cloud its points alone."""
     import trimesh  # loading it takes half of what all else takes, and most scenarios have no mesh
 
     try:
-        whole = trimesh.load(path, process=False) if is_cloud else trimesh.load(path, force="mesh", process=False)
+        if part is not None:
+            whole = (_part_of_obj if path.suffix.lower() == ".obj" else _part_of_glb)(path, part)
+        else:
+            whole = trimesh.load(path, process=False) if is_cloud else trimesh.load(path, force="mesh", process=False)
+    except GeometryError:
+        raise
     except Exception as error:  # each reader has its own errors
         raise GeometryError(_UNREADABLE.format(path, path.suffix[1:].upper())) from error
     if is_cloud:
@@ -91,7 +105,57 @@ def loaded(path: Path, *, is_cloud: bool) -> tuple[np.ndarray, np.ndarray]:
     vertices, triangles = _vertices(whole, path), np.asarray(whole.faces, dtype=np.int64)
     if triangles.min() < 0 or triangles.max() >= len(vertices):
         raise GeometryError(f"{path}: has faces with vertices that it does not have: it is damaged; export it again.")
-    return vertices, triangles
+    if part is None:
+        return vertices, triangles
+    used, triangles = np.unique(triangles, return_inverse=True)
+    return vertices[used], triangles.reshape(-1, 3)
+
+
+def _part_of_obj(path: Path, part: str) -> Any:
+    """Return the mesh of the objects and groups of a name in an OBJ file."""
+    import trimesh
+
+    lines, names, is_wanted = [], [""], False
+    of_object = ""
+    for line in path.read_text(encoding="utf-8", errors="replace").replace("\\\n", " ").splitlines():
+        kind, _, rest = line.strip().partition(" ")
+        if kind in ("o", "g"):
+            of_object = rest.strip() if kind == "o" else of_object
+            names.append(rest.strip())
+            is_wanted = _is_called(part, of_object, rest.strip())
+        if kind not in ("f", "l", "p", "usemtl", "mtllib", "o", "g") or (kind == "f" and is_wanted):
+            lines.append(line)
+    _check_there(path, part, names[1:])
+    content = BytesIO("\n".join(lines).encode())
+    return trimesh.load(content, file_type="obj", force="mesh", process=False)
+
+
+def _part_of_glb(path: Path, part: str) -> Any:
+    """Return the mesh of the nodes and meshes of a name in a GLB file, in their places."""
+    import trimesh
+
+    scene: Any = trimesh.load(path, process=False)
+    nodes = {node: scene.graph[node] for node in scene.graph.nodes_geometry}
+    _check_there(path, part, [name for node, (_, mesh) in nodes.items() for name in (node, mesh)])
+    wanted = [
+        scene.geometry[mesh].copy().apply_transform(matrix)
+        for node, (matrix, mesh) in nodes.items()
+        if _is_called(part, node, mesh)
+    ]
+    return trimesh.util.concatenate(wanted)
+
+
+def _is_called(part: str, *names: str) -> bool:
+    return any(fnmatchcase(name.casefold(), part.casefold()) for name in names)
+
+
+def _check_there(path: Path, part: str, names: Sequence[str]) -> None:
+    """Check that a file has an object of a name."""
+    if any(_is_called(part, name) for name in names):
+        return
+    known = ", ".join(list(dict.fromkeys(filter(None, names)))[:_LISTED])
+    has = f"it has {known}{' and more' if len(set(names)) > _LISTED else ''}" if known else "it names none"
+    raise GeometryError(f'{path}: has no object "{part}", which geometry.part names; {has}.')
 
 
 def _points(whole: Any, path: Path) -> np.ndarray:

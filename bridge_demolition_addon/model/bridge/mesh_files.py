@@ -63,7 +63,7 @@ def _part(table: Geometry, *, is_flat: bool) -> Repaired:
 def placed_mesh(table: Geometry) -> TriangleMesh:
     """Return the mesh in a file, scaled, rotated and moved to its position."""
     path = Path(table.file)
-    mesh = _file_mesh(path)
+    mesh = _file_mesh(path, table.part)
     vertices = mesh.vertices * table.scale
     up = table.up or ("y" if path.suffix.lower() == ".glb" else "z")
     if up == "y":
@@ -83,9 +83,9 @@ def exported(mesh: TriangleMesh, suffix: str) -> bytes:
     return content.encode() if isinstance(content, str) else content
 
 
-def _file_mesh(path: Path) -> TriangleMesh:
+def _file_mesh(path: Path, part: str | None) -> TriangleMesh:
     try:
-        return read_mesh(path)
+        return read_mesh(path, part)
     except UnreadableError as error:
         raise ScenarioError(f'geometry.file is "{path}": {error}') from error
 

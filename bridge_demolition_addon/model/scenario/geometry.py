@@ -14,6 +14,8 @@ _ADVICE = {
 }
 """What to do with files of other programs, by how their names end."""
 
+_WITH_OBJECTS = (".obj", ".glb")
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Geometry(Table):
@@ -26,6 +28,10 @@ class Geometry(Table):
 
     name: str = key("Name of the member.")
     file: str = key("Path of the file, from the scenario file's folder.")
+    part: str | None = key(
+        "Name of the object in an OBJ or GLB file of several, with `*` for any letters; by default all of them.",
+        default=None,
+    )
     kind: str = key("What kind of member it is, such as `deck` or `pier`.", default="member")
     scale: float = key("Metres in one unit of the file: 0.001 for a file in millimetres.", default=1.0, above=0)
     up: str | None = key(
@@ -81,3 +87,5 @@ class Geometry(Table):
             raise ScenarioError(
                 f'geometry.file is "{self.file}": expected a file that ends in {", ".join(first)} or {last}{advice}'
             )
+        if self.part is not None and suffix not in _WITH_OBJECTS:
+            raise self.unexpected("part", f"none of a file that ends in {suffix}, whose objects have no names")

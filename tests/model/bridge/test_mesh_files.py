@@ -269,3 +269,55 @@ def test_the_ball_may_aim_beside_the_deck_where_there_is_geometry(file_of):
     assert len(prepared_members(scenario).members) == 1
     with pytest.raises(GeometryError, match="No member lies under"):
         prepared_members(replace(scenario, ball=replace(ball, target_m=[9.0, 0.0])))
+
+
+@pytest.fixture
+def of_many(tmp_path):
+    """A pier of 2 m³ and a deck of 12 m³ in one file, by name."""
+
+    def written(suffix):
+        scene = trimesh.Scene()
+        for name, size, middle in (("Pier.001", (1, 1, 2), (0, 0, 1)), ("Deck", (6, 2, 1), (3, 0, 2.5))):
+            at = np.eye(4)
+            at[:3, 3] = middle
+            scene.add_geometry(trimesh.creation.box(size), node_name=name, geom_name=f"{name} mesh", transform=at)
+        if suffix == ".glb":
+            upright = trimesh.transformations.rotation_matrix(-np.pi / 2.0, (1, 0, 0))
+            scene.apply_transform(upright)  # y up, as GLB has it
+            (tmp_path / "bridge.glb").write_bytes(scene.export(file_type="glb"))
+        else:
+            (tmp_path / "bridge.obj").write_text(_objects_text(scene))
+        return tmp_path / f"bridge{suffix}"
+
+    return written
+
+
+def _objects_text(scene):
+    lines, first = ["# two objects"], 1
+    for name in scene.graph.nodes_geometry:
+        at, mesh_name = scene.graph[name]
+        mesh = scene.geometry[mesh_name].copy().apply_transform(at)
+        lines += [f"o {name}", *("v {} {} {}".format(*point) for point in mesh.vertices.tolist()), f"g {name} concrete"]
+        lines += ["f {} {} {}".format(*face) for face in (mesh.faces + first).tolist()]
+        first += len(mesh.vertices)
+    return "\n".join(lines)
+
+
+@pytest.mark.parametrize("suffix", [".obj", ".glb"])
+def test_one_object_of_a_file_with_many_is_a_member(of_many, suffix):
+    file = of_many(suffix)
+    volumes = {None: 14.0, "Deck": 12.0, "pier*": 2.0, "*": 14.0}
+    for part, volume_m3 in volumes.items():
+        table = Geometry(name="own", file=str(file), part=part, density_kg_m3=2500.0)
+        ((member,), _) = geometry_members([table])
+        assert member.volume_m3 == pytest.approx(volume_m3, rel=SINGLE_M), part
+    deck = Geometry(name="own", file=str(file), part="Deck", density_kg_m3=2500.0)
+    ((member,), _) = geometry_members([deck])
+    assert member.solid.bounds == pytest.approx(np.array([[0.0, -1.0, 2.0], [6.0, 1.0, 3.0]]), abs=1e-6)
+    with pytest.raises(GeometryError, match=r'has no object "Cap", which geometry\.part names; it has .*Pier\.001'):
+        geometry_members([replace(deck, part="Cap")])
+
+
+def test_a_file_without_named_objects_has_no_part():
+    with pytest.raises(ScenarioError, match=r'geometry\.part is "Deck": expected none of a file that ends in \.stl'):
+        Geometry(name="own", file="a.stl", part="Deck", density_kg_m3=2500.0)
