@@ -177,7 +177,7 @@ def blast_pulses(
 
 
 def charges_as_fired(
-    sources_m: FloatArray, tnt_kg: ArrayLike, delays_s: ArrayLike, bursts: Sequence[Burst | str]
+    sources_m: FloatArray, tnt_kg: ArrayLike, delays_s: FloatArray, bursts: Sequence[Burst | str]
 ) -> tuple[FloatArray, FloatArray]:
     """Return the TNT (c,) that goes off as one with each of c charges, its own included, and its share of that (c,).
 

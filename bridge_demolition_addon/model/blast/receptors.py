@@ -96,7 +96,8 @@ def peak_overpressures(
     """
     peaks = np.zeros(len(points_m))
     sources = np.array([charge.position_m for charge in charges]).reshape(-1, 3)
-    by_pressure, delays = ([getattr(charge, name) for charge in charges] for name in ("tnt_for_pressure_kg", "delay_s"))
+    delays = np.array([charge.delay_s for charge in charges])
+    by_pressure = [charge.tnt_for_pressure_kg for charge in charges]
     together, _ = charges_as_fired(sources, by_pressure, delays, [charge.burst for charge in charges])
     for charge, tnt_kg in zip(charges, together, strict=True):
         wave = blast_wave(distance(points_m, np.array(charge.position_m)), tnt_kg, charge.burst, model)

@@ -1,7 +1,7 @@
 """A whole scenario, made of its tables."""
 
 import math
-from collections.abc import Hashable
+from collections.abc import Hashable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache
 from itertools import chain, combinations
@@ -61,7 +61,7 @@ from .recording import PictureSettings, RecordingSettings
 from .reinforcement import BarRule, BridgeReinforcement, GeometryReinforcement
 from .reporting import ReportSettings
 from .site import Exclusion, Neighbour, Site, Zone
-from .steelwork import Steelwork
+from .steelwork import SteelMember, SteelNode, Steelwork
 from .tendons import Tendon, check_tendons
 from .time import MOST_FRAMES, TimeSettings
 
@@ -291,10 +291,13 @@ class Scenario(Table):
 
     def _check_together(self) -> None:
         named_tables(self)  # zones of several members have names of their own
-        steel = (*self.steelwork.nodes, *self.steelwork.members) if self.steelwork else ()
-        for table in (*self.geometry, *steel):
-            if table.name.strip() == GROUND_NAME:
-                raise table.unexpected("name", "another name: this is what all stands on")
+        steelwork = self.steelwork
+        own: Sequence[Geometry | SteelNode | SteelMember] = self.geometry
+        if steelwork:
+            own = (*own, *steelwork.nodes, *steelwork.members)
+        for member in own:
+            if member.name.strip() == GROUND_NAME:
+                raise member.unexpected("name", "another name: this is what all stands on")
         self._check_equipment()
         check_zones_apart(self.blast_zones)
         check_cuts(self.cuts, self.blast_zones)
