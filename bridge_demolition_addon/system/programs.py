@@ -23,7 +23,7 @@ def program_command(
     paths = f"import sys; sys.path.insert(0, {str(_PACKAGE.parent)!r}); {libraries}"
     start = f"from {_PACKAGE.name}.{module} import main; main()"
     if not blender:
-        load = f"from {_PACKAGE.name}.system.one_core import load_on_one_core; load_on_one_core('bpy'); "
+        load = f"from {_PACKAGE.name}.system.processor import load_on_one_core; load_on_one_core('bpy'); "
         return [sys.executable, "-c", paths + (load if one_thread else "") + start]
     threads = ["--threads", "1"] if one_thread else []
     return [
