@@ -191,7 +191,7 @@ class _LayersAcross:
                 for layer, force, opening, strain, level, width in columns:
                     pulls, positions = _pulls(face, corners, group, level, force / width, len(rows))
                     if not layer.anchored and group.own is None:
-                        held = _anchored(layer, member, tensile_strength_pa(compression_pa / factor), pulls, positions)
+                        held = _anchored(layer, member, tensile_strength_pa(compression_pa), pulls, positions)
                         pulls, positions = held * pulls, held[:, None] * positions
                     moments = member.with_skew(positions) if group.own is None else positions
                     yield self._crossing(rows, layer, pulls, along, moments, opening, strain)
@@ -203,7 +203,7 @@ class _LayersAcross:
             for rows, _, compression_pa in self._by_strength(spread.member):
                 pulls = spread.pulls_n(connections.only(rows), self._factor)
                 moments, along = pulls[:, None] * connections.points[rows], np.eye(3)[spread.along]
-                opening = spread.opening_m(compression_pa / self._factor, self._steel)
+                opening = spread.opening_m(compression_pa, self._steel)
                 yield self._crossing(rows, spread.layer, pulls, along, moments, opening, strain)
 
     def _by_strength(self, member: int) -> Iterator[tuple[np.ndarray, Joint, float]]:
@@ -280,12 +280,11 @@ def _as_whole(
     group: LayersOfMember, beams: Sequence[TBeam], compressive_pa: float, factor: float, steel: Steel
 ) -> tuple[list[float], list[float]]:
     """Return the forces at which layers yield across a crack of the whole section that they are in, and the openings at
-    which they rupture: a factor on all strengths is one on the bars' and on bond, which then takes as long."""
+    which they rupture, by the bond of concrete that is as weak."""
     beam = next((beam for beam in beams if beam.has(group)), None)
     if beam is None:
-        return group.section(compressive_pa, factor).across_cracks_n(), group.openings_m(compressive_pa / factor, steel)
-    forces = beam.across_cracks_n(group, compressive_pa, factor)
-    return forces, group.openings_m(compressive_pa / factor, steel, beam.depth_m)
+        return group.section(compressive_pa, factor).across_cracks_n(), group.openings_m(compressive_pa, steel)
+    return beam.across_cracks_n(group, compressive_pa, factor), group.openings_m(compressive_pa, steel, beam.depth_m)
 
 
 def _anchored(

@@ -215,7 +215,7 @@ def _beam_texts(scenario: Scenario, beam: TBeam) -> tuple[str, str]:
 
 def _ruptured_text(scenario: Scenario, groups: Sequence[LayersOfMember], whole_m: float | None = None) -> str:
     own_m, steel = scenario.connections.ductile_elongation_m, scenario.steel
-    compression_pa = float(given(scenario.joints[0].strength).compression_pa) / scenario.connections.strength_factor
+    compression_pa = float(given(scenario.joints[0].strength).compression_pa)
     openings = [opening for group in groups for opening in group.openings_m(compression_pa, steel, whole_m)]
     openings = openings if own_m is None else [own_m]
     ranged = " to ".join(dict.fromkeys(f"{1000.0 * opening:.3g}" for opening in (min(openings), max(openings))))
