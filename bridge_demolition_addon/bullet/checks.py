@@ -22,7 +22,6 @@ from .layout import (
     RIGID_BODY,
     ROLLING,
     SLOW_BOUNCE_M_S,
-    SPLIT_DEPTH_M,
     WARM_STARTING,
     Layout,
 )
@@ -64,7 +63,6 @@ def check_solver(layout: Layout, dynamics: int, world: bpy.types.RigidBodyWorld,
     _expect("solver iterations", read_value(dynamics + layout.world.iterations, "i"), world.solver_iterations)
     _expect("warm starting", read_value(dynamics + layout.world.warm_starting, "d"), WARM_STARTING)
     _expect("mode of the solver", read_value(dynamics + layout.world.mode, "i"), ONE_DIRECTION)
-    _expect_close("overlap", read_value(dynamics + layout.world.split_depth, "d"), SPLIT_DEPTH_M)
     _expect_close("rolling friction", read_value(dynamics + layout.world.rolling, "d"), ROLLING)
     _expect_close("speed without bounce", read_value(dynamics + layout.world.slow_bounce, "d"), SLOW_BOUNCE_M_S)
     step = read_value(dynamics + layout.world.step, "d")

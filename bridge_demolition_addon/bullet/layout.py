@@ -136,7 +136,6 @@ class WorldLayout:
     user_info = Behind("solver_settings", -8)  # for the user of the library; Blender does not use it
     step = Behind("solver_settings", 24)  # length of the last sub-step
     iterations = Behind("solver_settings", 40)
-    split_depth = Behind("solver_settings", 136)  # minus the overlap from which on bodies are parted without speed
     warm_starting = Behind("solver_settings", 160)  # share of the last impulses that the solver starts with
     mode = Behind("solver_settings", 176)  # flags of the solver, an int
     rolling = Behind("solver_settings", 200)  # threshold of rolling friction, which Blender keeps
@@ -279,9 +278,6 @@ CONSTRAINT_TYPES = {
 
 WARM_STARTING = 0.85
 """Bullet's default warm-starting factor, which Blender keeps: a mark to know the solver's settings by."""
-
-SPLIT_DEPTH_M = -0.04
-"""Minus the overlap that Bullet parts by speed (btContactSolverInfo), which Blender keeps, in single precision."""
 
 ONE_DIRECTION, TWO_DIRECTIONS = 4 | 256, 4 | 256 | 16
 """Flags of the solver: warm starting, what it works with, and friction across the direction of sliding, too."""

@@ -25,7 +25,7 @@ from .collision_pairs import CollisionPairs
 from .constraint_rows import ConstraintRows
 from .constraints import FEEDBACK_DOUBLES, ConstraintTable
 from .contacts import ContactReader
-from .layout import ONE_DIRECTION, SPLIT_DEPTH_M, TWO_DIRECTIONS, Layout, platform_layout
+from .layout import ONE_DIRECTION, TWO_DIRECTIONS, Layout, platform_layout
 from .memory import DOUBLES, INTEGERS, POINTERS, read_pointer, read_value
 from .snapshots import SnapshotTaker
 from .teardown import detach_freed, take_bodies_from, take_out_constraints
@@ -155,15 +155,13 @@ class BulletWorld:
         """
         DOUBLES.write(self._world.dynamics + self._layout.world.least_change, least_change_m_s * least_change_m_s)
 
-    def hold_at_contacts(self, *, held: bool) -> None:
-        """Have what lies on each other come to rest, or leave contacts as Blender has them.
+    def rub_across(self, *, wanted: bool) -> None:
+        """Have friction act across the direction in which bodies slide too, or along it alone, as Blender has it.
 
-        Friction then acts across the direction of sliding, too: along it alone, piles creep sideways. And no overlap
-        is parted by speed, which would be energy: Blender does so up to 4 cm, at a fifth of the overlap in a sub-step.
+        Along it alone what lies in a pile creeps sideways: the direction is that of velocities without contacts.
         """
-        dynamics, world = self._world.dynamics, self._layout.world
-        INTEGERS.write(dynamics + world.mode, TWO_DIRECTIONS if held else ONE_DIRECTION)
-        DOUBLES.write(dynamics + world.split_depth, 0.0 if held else float(np.float32(SPLIT_DEPTH_M)))
+        mode = TWO_DIRECTIONS if wanted else ONE_DIRECTION
+        INTEGERS.write(self._world.dynamics + self._layout.world.mode, mode)
 
     def take_substep(self) -> float:
         """Return the length in s of the sub-steps since the last call, 0.0 where Bullet took none, and clear it.
@@ -214,7 +212,7 @@ class BulletWorld:
             for field in (world.before_step, world.after_step, world.user_info):
                 POINTERS.write(self._world.dynamics + field, 0)
             self.end_passes(0.0)
-            self.hold_at_contacts(held=False)
+            self.rub_across(wanted=False)
         self._bound = None
 
     def detach_freed(self, *, bodies_stay: bool = True) -> None:

@@ -53,8 +53,8 @@ keeps the damping that it had: more of it would break what hangs by little."""
 
 _LEAST_CHANGE_M_S2 = 0.024
 """Change of velocities, by the length of a sub-step, with which Bullet's solver has found what contacts and connections
-do to each other. A pile that it leaves before creeps: what lies on the ground learns by one connection a pass what hangs
-on it. A four-hundredth of gravity: 0.1 mm/s at 240 sub-steps a second."""
+do to each other: a four-hundredth of gravity, 0.1 mm/s at 240 sub-steps a second. A pile that it leaves before creeps:
+what lies on the ground learns by one connection a pass what hangs on it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -181,7 +181,7 @@ class ElasticConnections:
         self._on_first = np.ones(len(self._frames), bool)
         self.loads = np.zeros((6, len(self._frames)))
         world.constraints.hold_thresholds(held=True)
-        world.hold_at_contacts(held=True)
+        world.rub_across(wanted=True)
 
     def reinforce(self, breaking: Breaking, left: np.ndarray) -> None:
         """Have reinforcement hold where connections break; to be called before any time passes.

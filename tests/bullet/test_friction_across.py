@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Contacts in worlds with elastic connections: friction along and across the way, and overlaps that give no speed."""
+"""Friction along and across the way, as worlds with elastic connections have it."""
 
 from __future__ import annotations
 
@@ -18,16 +18,16 @@ SLOPE, SIDE, FRICTION = math.radians(25.0), math.radians(37.0), 0.3
 
 
 @pytest.fixture
-def holding(monkeypatch):
-    """Have every world that is recorded hold at contacts, as one with elastic connections does."""
+def rubbing(monkeypatch):
+    """Give every world that is recorded friction across the way, as one with elastic connections has."""
     call, modes = BulletWorld.call_around_substeps, []
 
-    def also_hold(world, *actions):
+    def also_rub(world, *actions):
         call(world, *actions)
-        world.hold_at_contacts(held=True)
+        world.rub_across(wanted=True)
         modes.append(world)
 
-    monkeypatch.setattr(BulletWorld, "call_around_substeps", also_hold)
+    monkeypatch.setattr(BulletWorld, "call_around_substeps", also_rub)
     return modes
 
 
@@ -47,7 +47,7 @@ def on_slope(blender, azimuth):
 
 
 @pytest.mark.parametrize("azimuth", [0.0, SIDE, math.radians(45.0)])
-def test_a_block_slides_down_a_slope_as_coulomb_says(blender, tmp_path, holding, azimuth):
+def test_a_block_slides_down_a_slope_as_coulomb_says(blender, tmp_path, rubbing, azimuth):
     """s = (sin α - μ cos α) g t² / 2, within 1 % after 3 m in any direction of the axes that Bullet takes."""
     blocks, axes = on_slope(blender, azimuth)
     results = blocks.play(tmp_path, 52)
@@ -58,11 +58,10 @@ def test_a_block_slides_down_a_slope_as_coulomb_says(blender, tmp_path, holding,
     assert abs(way[-1, 1]) < 0.01 * way[-1, 0]
 
 
-def test_the_settings_of_blender_come_back(blender, tmp_path, holding):
+def test_the_settings_of_blender_come_back(blender, tmp_path, rubbing):
     blocks, _ = on_slope(blender, 0.0)
     layout = platform_layout().world
     blocks.play(tmp_path, 2)
-    (world,) = holding
+    (world,) = rubbing
     address = world._find()
     assert read_value(address + layout.mode, "i") == ONE_DIRECTION != TWO_DIRECTIONS
-    assert read_value(address + layout.split_depth, "d") == float(np.float32(-0.04))
