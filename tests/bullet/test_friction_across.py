@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from support.blocks import Blocks
 
+from bridge_demolition_addon.bullet.binding import find_dynamics_world
 from bridge_demolition_addon.bullet.layout import ONE_DIRECTION, TWO_DIRECTIONS, platform_layout
 from bridge_demolition_addon.bullet.memory import read_value
 from bridge_demolition_addon.bullet.world import BulletWorld
@@ -60,8 +61,7 @@ def test_a_block_slides_down_a_slope_as_coulomb_says(blender, tmp_path, rubbing,
 
 def test_the_settings_of_blender_come_back(blender, tmp_path, rubbing):
     blocks, _ = on_slope(blender, 0.0)
-    layout = platform_layout().world
     blocks.play(tmp_path, 2)
-    (world,) = rubbing
-    address = world._find()
-    assert read_value(address + layout.mode, "i") == ONE_DIRECTION != TWO_DIRECTIONS
+    assert rubbing
+    address = find_dynamics_world(platform_layout(), blocks.world)
+    assert read_value(address + platform_layout().world.mode, "i") == ONE_DIRECTION != TWO_DIRECTIONS
