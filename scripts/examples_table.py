@@ -24,8 +24,7 @@ from support.example_runs import MEASURED_S
 from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.model.sequence.checked_model import checked_model
 from bridge_demolition_addon.model.stages.design_loads import carries_design_loads
-from bridge_demolition_addon.model.stages.stability import UNKNOWN
-from bridge_demolition_addon.model.stages.stability_by_statics import stability_of
+from bridge_demolition_addon.model.stages.stability import UNKNOWN, stability_of
 from bridge_demolition_addon.model.stages.standing import StandingBridge
 from bridge_demolition_addon.model.study.runs_table import RESTED, read_runs
 

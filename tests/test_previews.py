@@ -11,7 +11,7 @@ sys.path.insert(0, str(ROOT / "scripts" / "experiments"))
 import previews
 
 from bridge_demolition_addon.model.scenario.file import read_scenario
-from bridge_demolition_addon.model.study import preview_trust
+from bridge_demolition_addon.model.study import preview_scenario
 
 PAGE = ROOT / "docs" / "sidebar.md"
 COMPARED = previews.compared()
@@ -31,14 +31,14 @@ def test_the_window_says_how_many_spans_fell_or_stood_alike():
     """In the mean of all scenarios, at the end and when the first picture is shown."""
     for column in ("soon_spans", "spans"):
         shares = shares_alike(column)
-        assert int(sum(shares) / len(shares)) >= preview_trust.ALIKE_PERCENT
-    assert int(sum(shares) / len(shares)) - 3 <= preview_trust.ALIKE_PERCENT
+        assert int(sum(shares) / len(shares)) >= preview_scenario.ALIKE_PERCENT
+    assert int(sum(shares) / len(shares)) - 3 <= preview_scenario.ALIKE_PERCENT
 
 
 def test_the_window_says_how_far_debris_got():
     ratios = [ratio for runs in COMPARED.values() if (ratio := previews.throw_ratio(*runs)) is not None]
-    assert round(min(ratios), 1) == preview_trust.LEAST_THROW
-    assert round(max(ratios), 1) == preview_trust.MOST_THROW
+    assert round(min(ratios), 1) == preview_scenario.LEAST_THROW
+    assert round(max(ratios), 1) == preview_scenario.MOST_THROW
 
 
 def test_the_page_says_how_far_most_shards_have_got_in_the_first_picture():

@@ -20,7 +20,7 @@ from ..engineering.blast.pulses import BlastModel, Pulses, blast_pulses, blast_w
 from ..engineering.blast.wave import AMBIENT_PRESSURE_PA, Burst
 from ..errors import OutputError
 from ..model.blast.charges import Charge
-from ..model.blast.damage import distinct_thresholds, ring_radii
+from ..model.blast.receptors import distinct_thresholds, ring_radii
 from ..system.disk import whole_file
 from .style import blank_figure, lay_out
 

@@ -14,8 +14,7 @@ from matplotlib.figure import FigureBase
 from ..engineering.blast.pulses import BlastModel
 from ..engineering.terrain.recorded import RecordedGround
 from ..model.blast.charges import Charge
-from ..model.blast.damage import distinct_thresholds, ring_radii
-from ..model.blast.receptors import PlaceLoads, peak_overpressures
+from ..model.blast.receptors import PlaceLoads, distinct_thresholds, peak_overpressures, ring_radii
 from ..model.scenario import Neighbour
 from ..texts import Quantity, Text, Unit
 from .plan_maps import LEVEL_GROUND, draw_area, draw_ground

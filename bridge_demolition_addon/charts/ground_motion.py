@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import FigureBase
 
-from ..engineering.ground_motion.record import GroundRecord
-from ..model.ground_motion.response_spectrum import design_spectrum, response_spectrum
+from ..engineering.ground_motion import GroundRecord
 from ..model.ground_motion.settings import DIRECTIONS, DesignSpectrum
+from ..model.ground_motion.sources import design_spectrum, response_spectrum
 from ..texts import Text, Unit
 from .style import line_style
 

@@ -22,7 +22,7 @@ from ..engineering.blast.wave import scaled_distance
 from ..errors import BlastError
 from ..model.blast.blast_zones import DRILLED_EXPLOSIVES, DrilledExplosive
 from ..model.blast.charges import EXPLOSIVES, Explosive, explosive_named
-from ..model.blast.damage import THRESHOLDS
+from ..model.blast.receptors import THRESHOLDS
 from . import drilled_charge
 from .arguments import add_blast_options, quantity
 from .drilled_charge import drilled_explosive, zone_lines

@@ -17,8 +17,8 @@ from ..model.scenario.contact_facts import contact_facts
 from ..model.scenario.file import read_scenario
 from ..model.scenario.scenario import rules_of_bars
 from ..model.sequence.checked_model import ModelWorksite, checked_model
-from ..model.sequence.undisturbed import AWAKE_S, self_collapse_text
-from ..model.stages.stability_by_statics import stability_of
+from ..model.sequence.ending import AWAKE_S, self_collapse_text
+from ..model.stages.stability import stability_of
 from ..model.stages.stages import equipment_facts
 from ..model.stages.standing import made_elastic
 from ..model.structure.bearing_ranges import LEAST_CUTS, MOST_CUTS, bearing_ranges

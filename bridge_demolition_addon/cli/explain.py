@@ -2,7 +2,7 @@
 
 import argparse
 
-from ..model.ensemble.explanation import explanation
+from ..model.ensemble.reference import explanation
 
 
 def add_to(commands: argparse._SubParsersAction) -> None:

@@ -12,15 +12,13 @@ from ..engineering.unit_systems import UnitSystem
 from ..engineering.units import kilonewtons
 from ..errors import Faults, OutputError
 from ..model.reinforcement.concrete_members import plain_concrete_text
-from ..model.results.bar_extremes import bars_text, largest_use_text
-from ..model.results.connection_counts import ConnectionCounts
-from ..model.results.creep import creep_text
-from ..model.results.fingerprint import SHORT
-from ..model.results.moving import gone_text
+from ..model.results.arrays import SHORT
+from ..model.results.collapse import ConnectionCounts
+from ..model.results.extremes import bars_text, largest_use_text
+from ..model.results.moving import creep_text, gone_text
 from ..model.results.summary import first_hit_s
-from ..model.run_folder.files import RESULT_FILES
+from ..model.run_folder.files import RESULT_FILES, remove_report
 from ..model.run_folder.folder import check_folder, numbered_folder
-from ..model.run_folder.reported import remove_report
 from ..model.scenario import Scenario
 from ..model.scenario.file import read_scenario
 from ..model.sequence.checked_model import checked_model

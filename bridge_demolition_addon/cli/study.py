@@ -14,11 +14,10 @@ from pathlib import Path
 from ..errors import OutputError, ScenarioError, SimulationError
 from ..model.ensemble.folder import check_folder, outcome_in, study_in, versions_of
 from ..model.sequence.checked_model import checked_model
-from ..model.study.file import Study, read_study
-from ..model.study.files import AGAIN_FOLDER, RUNS_FOLDER, STUDY_FILE
+from ..model.study.conclusions import holds, proportion_leaving
+from ..model.study.file import AGAIN_FOLDER, RUNS_FOLDER, STUDY_FILE, Study, read_study
 from ..model.study.runs_table import DONE
 from ..model.study.sampled_runs import sampled_run
-from ..model.study.verification import holds, proportion_leaving
 from ..report.wording.study import planned_limit_text, study_sentences, verified_sentence
 from ..studies.engine import cores
 from ..studies.estimate import FACTOR, duration_text, seconds_by_size

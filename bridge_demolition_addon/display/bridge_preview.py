@@ -10,8 +10,7 @@ import numpy as np
 from ..engineering.geometry.mesh import TriangleMesh, plane_cuts, triangle_areas_and_normals
 from ..engineering.geometry.vectors import dot
 from ..model.bridge import deck_top
-from ..model.bridge.member import Member
-from ..model.bridge.own_axes import own_axes
+from ..model.bridge.member import Member, own_axes
 from ..model.bridge.substructure import substructure
 from ..model.bridge.superstructure import superstructure
 from ..model.materials.bar_layers import BarLayer

@@ -7,8 +7,8 @@ from functools import partial
 
 import numpy as np
 
-from ..model.bridge.extent import extent, surface_height
 from ..model.bridge.member import Member
+from ..model.bridge.preparation import extent, surface_height
 from ..model.scenario import Scenario
 
 _DEBRIS_HEIGHTS = 0.5

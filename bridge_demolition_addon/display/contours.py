@@ -12,12 +12,11 @@ from typing import Protocol
 
 import numpy as np
 
-from ..engineering.geometry.rotations import rotated, rotation_vectors
+from ..engineering.geometry.vectors import rotated, rotation_vectors
 from ..engineering.unit_systems import IMPERIAL, UnitSystem
 from ..errors import ContourError
 from ..model.results.arrays import Results
-from ..model.results.frames import Frame
-from ..model.results.inventory import Inventory
+from ..model.results.frames import Frame, Inventory
 from ..model.stages.stages import Stage
 from ..model.structure.model import Model
 from .colour_scale import ColourMap, colours, tick_text

@@ -9,7 +9,7 @@ import numpy as np
 from ..engineering.geometry.mesh import TriangleMesh
 from ..engineering.terrain.recorded import RecordedGround
 from ..model.results.arrays import Results
-from ..model.results.inventory import Inventory
+from ..model.results.frames import Inventory
 from ..model.scenario.steelwork import NODE_KIND
 
 MOST_PUFFS = 60

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..errors import OutputError
 from ..model.results.arrays import Results
-from ..model.results.key_frame import impact_step
+from ..model.results.summary import impact_step
 
 _NOISE_S = 1e-6
 

@@ -15,8 +15,7 @@ from ..engineering.geometry.vectors import length
 from ..engineering.terrain.recorded import RecordedGround
 from ..model.debris.footprint import corners_at, footprint, straightened
 from ..model.results.arrays import Results
-from ..model.results.collapse import ShardRest, rest_of
-from ..model.results.connection_counts import ConnectionCounts
+from ..model.results.collapse import ConnectionCounts, ShardRest, rest_of
 from ..model.results.motion import MOVED_M, relative_to_ground, travel, without_removed
 
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..engineering.geometry.plan_areas import without_gaps
 from ..engineering.geometry.vectors import transformed, transformed_back
-from ..model.debris.free_fall import landed
+from ..model.debris.footprint import landed
 from ..model.debris.throws import debris_of
 from ..model.results.arrays import Results
 from ..model.results.motion import relative_to_ground, without_removed

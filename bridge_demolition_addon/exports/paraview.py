@@ -13,8 +13,7 @@ from xml.sax.saxutils import quoteattr
 
 import numpy as np
 
-from ..engineering.geometry.rotations import carried_points
-from ..engineering.geometry.vectors import length
+from ..engineering.geometry.vectors import carried_points, length
 from ..model.results.arrays import Results
 from ..model.results.energy import kinetic_energies, moments_of_inertia
 from ..model.results.frames import ContactHistory, Frame

@@ -6,12 +6,10 @@ import numpy as np
 
 from ..engineering.geometry.hulls import THINNEST
 from ..engineering.geometry.mesh import TriangleMesh
-from ..engineering.geometry.rotations import carried_points
 from ..engineering.geometry.solids import from_manifold, hull
-from ..engineering.geometry.vectors import transformed_back
+from ..engineering.geometry.vectors import carried_points, transformed_back
 from ..model.results.arrays import Results
-from ..model.results.frames import Frame
-from ..model.results.inventory import Inventory
+from ..model.results.frames import Frame, Inventory
 
 _FRAMES_PER_SECOND = 24.0
 _NO_TRIANGLES = np.zeros((0, 3), np.int64)

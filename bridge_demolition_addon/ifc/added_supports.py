@@ -9,9 +9,8 @@ import numpy as np
 from manifold3d import CrossSection
 
 from ..engineering.geometry.mesh import TriangleMesh
-from ..engineering.geometry.rotations import turn_in_plane
 from ..engineering.geometry.solids import box, from_manifold, to_manifold
-from ..engineering.geometry.vectors import cross_2d, dot, length, transformed_back, unit
+from ..engineering.geometry.vectors import cross_2d, dot, length, transformed_back, turn_in_plane, unit
 from ..model.bridge.member import Member
 from .gaps import STEEPEST, cut_by
 

@@ -10,7 +10,7 @@ from typing import Any
 from unicodedata import category
 
 from ..errors import IfcError
-from ..model.scenario.connections_between import GROUND_NAME
+from ..model.scenario.joint_settings import GROUND_NAME
 from ..model.schema import LINE_BREAKING_CATEGORIES
 from .kinds import OTHER, ElementFacts, LeftOut, is_french, kind_of
 from .library import library

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 
 from ..model.bridge.member import Member
-from ..model.scenario.connections_between import GROUND_NAME
+from ..model.scenario.joint_settings import GROUND_NAME
 from .bearings import BearingTables
 from .contacts import TOUCHING_M, NearbyMembers
 from .supports import HELD_KINDS, STANDING

@@ -10,8 +10,7 @@ import numpy as np
 
 from ..engineering.geometry.mesh import TriangleMesh
 from ..engineering.geometry.own_axes import longer_side
-from ..engineering.geometry.rotations import turn_in_plane
-from ..engineering.geometry.vectors import transformed
+from ..engineering.geometry.vectors import transformed, turn_in_plane
 
 _ON_AXIS_RAD = 1e-7
 """Angle below which a bridge runs along an axis of its file, and its coordinates are kept to the last digit."""

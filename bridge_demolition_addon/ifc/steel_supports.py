@@ -17,7 +17,7 @@ from ..engineering.geometry.solids import from_manifold, to_manifold
 from ..engineering.geometry.vectors import dot, length
 from ..model.bridge.member import Member
 from ..model.scenario.bearings import FIXED, PINNED, ROCKER, SLIDING, Bearing
-from ..model.scenario.connections_between import GROUND_NAME
+from ..model.scenario.joint_settings import GROUND_NAME
 from .added_supports import WIDEST_M
 from .assembly import Assembly
 from .bearings import HIGHEST_PLINTH_M

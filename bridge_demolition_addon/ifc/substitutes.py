@@ -14,11 +14,9 @@ from manifold3d import CrossSection, Error, FillRule, Manifold, Mesh64
 from ..engineering.elasticity.equations import connected_parts
 from ..engineering.geometry.mesh import TriangleMesh, joined_meshes
 from ..engineering.geometry.plan_areas import distances_outside, outlines, signed_area
-from ..engineering.geometry.repair import Repaired, repaired_solid
-from ..engineering.geometry.rotations import turn_in_plane
-from ..engineering.geometry.seams import loops_of_open_edges
+from ..engineering.geometry.repair import Repaired, loops_of_open_edges, repaired_solid
 from ..engineering.geometry.solids import box, contains, from_manifold, union
-from ..engineering.geometry.vectors import dot, length, transformed, transformed_back
+from ..engineering.geometry.vectors import dot, length, transformed, transformed_back, turn_in_plane
 from ..engineering.terrain.surface import Surface
 from ..errors import GeometryError
 

@@ -14,7 +14,7 @@ from typing import Any, ClassVar, Protocol, Self
 import numpy as np
 
 from ..engineering.geometry.turned_boxes import TurnedBox
-from ..engineering.ground_motion.record import GroundRecord
+from ..engineering.ground_motion import GroundRecord
 from ..engineering.timing.timeline import Timeline, TimeStep
 from ..texts import Text
 from .as_built import Structure

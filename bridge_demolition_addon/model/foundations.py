@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import ClassVar
 
-from ..engineering.foundations.footings import HORIZONTAL_SHARE, SOILS, Soil
+from ..engineering.foundations import HORIZONTAL_SHARE, SOILS, Soil
 from .schema import SIZE, Table, given, key
 
 _NEWTON_PER_MEGANEWTON = 1e6

@@ -8,8 +8,7 @@ import numpy as np
 
 from ..engineering.units import kilonewtons, mass_text, rounded_up
 from ..model.debris.throws import Debris, percentiles_by_mass
-from ..model.results.collapse import collapse_progress
-from ..model.results.connection_counts import ConnectionCounts
+from ..model.results.collapse import ConnectionCounts, collapse_progress
 from ..model.results.force_history import most_loaded
 from ..model.results.moving import still_moving_note
 from ..texts import UP, Quantity, Text, Unit, distance_to_keep

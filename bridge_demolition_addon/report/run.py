@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..engineering.terrain.contour_lines import contour_lines
+from ..engineering.terrain.raster import contour_lines
 from ..errors import OutputError
 from ..model.debris.exclusion import ExclusionZone
 from ..model.debris.throws import debris_of

@@ -18,9 +18,9 @@ from ..model.changes.bare_bars import bare_bars_text
 from ..model.debris.footprint import check_covers_ground
 from ..model.results.arrays import FRAMES_FILE, RESULTS_FILE, Results, load_results, results_in
 from ..model.results.collapse import ShardRest, rest_of
+from ..model.results.energy import is_known, made_share, much_made_text
 from ..model.results.motion import without_removed
 from ..model.results.moving import gone_text, moving_summary, moving_text
-from ..model.results.solver_energy import is_known, made_share, much_made_text
 from ..model.results.summary import hits_of_balls, impact_of, largest_throw
 from ..model.run_folder.files import FORCE_LOG, PICTURE_FOLDER, PICTURES, SCENARIO_FILE, SUMMARY_FILE
 from ..model.run_folder.folder import holds_run, writer_of_run
@@ -29,9 +29,8 @@ from ..model.run_folder.summary import RunSummary, read_summary
 from ..model.scenario import ReportSettings, Scenario
 from ..model.scenario.file import read_scenario
 from ..model.schema import given
-from ..model.sequence.ending import Ending, undone_at_end
+from ..model.sequence.ending import Ending, self_collapse_text, undone_at_end
 from ..model.sequence.lifts import held_parts_text, pick_texts
-from ..model.sequence.undisturbed import self_collapse_text
 from ..system.reading import MEGABYTE, check_file
 from ..texts import Text
 

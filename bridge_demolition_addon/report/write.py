@@ -23,11 +23,12 @@ from ..model.run_folder.files import (
     REPORT_WORD,
     SINGLE_PAGES,
     TABLE_FOLDER,
+    check_free,
+    list_report,
 )
 from ..model.run_folder.folder import holds_run
-from ..model.run_folder.reported import check_free, list_report
 from ..model.scenario import Scenario
-from ..model.study.files import OPTIMISE_FILE, REPORT_FOLDER, SEARCH_FILE, STUDY_FILE
+from ..model.study.file import OPTIMISE_FILE, REPORT_FOLDER, SEARCH_FILE, STUDY_FILE
 from ..model.terrain.placed import Placing
 from ..system.disk import check_no_link, own_folder
 from ..system.folder_lock import FolderLock

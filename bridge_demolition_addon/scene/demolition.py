@@ -16,7 +16,7 @@ from ..engineering.mechanics.strength import Ductility, Strength
 from ..errors import SimulationError
 from ..model.actions import PlannedAction
 from ..model.blast.settings import Apply
-from ..model.bridge.extent import room_around, surface_height
+from ..model.bridge.preparation import room_around, surface_height
 from ..model.pulls import Pull
 from ..model.scenario import Ball, Jackhammer, Scenario
 from ..model.sequence.checked_model import ModelWorksite, check_actions

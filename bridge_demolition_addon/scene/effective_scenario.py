@@ -12,7 +12,7 @@ import numpy as np
 from ..engineering.single_precision import as_given
 from ..errors import ScenarioError
 from ..model.scenario import Scenario, SurfaceValues
-from ..model.scenario.body_surfaces import with_surfaces
+from ..model.scenario.contact_facts import with_surfaces
 from ..model.scenario.contacts import QUANTITIES, BodyInContact
 from ..model.schema import Table
 from .bodies import SHARD_PROPERTIES, Kind

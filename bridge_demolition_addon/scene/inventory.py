@@ -9,7 +9,7 @@ import numpy as np
 
 from ..engineering.geometry.mesh import TriangleMesh, volumes_and_centres
 from ..errors import SimulationError
-from ..model.results.inventory import Inventory
+from ..model.results.frames import Inventory
 from .bodies import is_uneven_ground, kind_of, member_of, scaled_mesh
 from .connections.constraints import sections_of
 

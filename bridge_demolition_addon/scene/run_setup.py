@@ -15,7 +15,7 @@ from typing import Any
 import bpy
 import numpy as np
 
-from ..engineering.foundations.footings import SoilSprings
+from ..engineering.foundations import SoilSprings
 from ..engineering.geometry.hulls import ConvexHulls, convex_hulls
 from ..engineering.geometry.vectors import transformed
 from ..errors import ScenarioError
@@ -26,10 +26,10 @@ from ..model.blast.settings import BlastSettings
 from ..model.changes.change import Change, Event, schedule
 from ..model.loads.part import PlacedLoad, SizedLoad, placed_loads
 from ..model.pulls import Pull
-from ..model.results.fingerprint import digest, known_parts
-from ..model.results.inventory import Inventory
+from ..model.results.arrays import digest, known_parts
+from ..model.results.frames import Inventory
 from ..model.scenario import Scenario
-from ..model.sequence.structures import recorded_structure
+from ..model.sequence.lifts import recorded_structure
 from ..model.structure.tendons import ModelTendons
 from .blast.charges import blast_of, charges_of
 from .bodies import Kind, start_motion_of

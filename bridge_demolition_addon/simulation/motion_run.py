@@ -12,7 +12,7 @@ import bpy
 
 from ..model.results.arrays import Results
 from ..model.scenario import Scenario
-from ..model.sequence.undisturbed import left_alone
+from ..model.sequence.ending import left_alone
 from ..model.structure.model import Model, build_model
 from ..scene.demolition import build_demolition
 from ..system.signals import interrupted_afterwards

@@ -26,7 +26,7 @@ from ..model.scenario.recording import PictureSettings
 from ..model.sequence.checked_model import checked_model
 from ..model.sequence.ending import only_motion_text
 from ..model.sequence.lifts import pick_warnings
-from ..model.stages.stability_by_statics import stability_of
+from ..model.stages.stability import stability_of
 from ..model.structure.model import Model
 from ..scene.as_built import keep_stability
 from ..scene.demolition import build_demolition

@@ -11,19 +11,16 @@ from typing import Any
 import bpy
 import numpy as np
 
-from ..model.debris.on_ground import bodies_under_ground, debris_on_surfaces
-from ..model.debris.throws import debris_of
+from ..model.debris.throws import bodies_under_ground, debris_of, debris_on_surfaces
 from ..model.debris.touchdown import landings, shaking_at
 from ..model.reinforcement.concrete_members import plain_concrete
-from ..model.results.arrays import Results
-from ..model.results.fingerprint import motion_digest, result_digest
+from ..model.results.arrays import Results, motion_digest, result_digest
 from ..model.results.motion import without_removed
 from ..model.results.summary import settling, summarise
 from ..model.scenario import Scenario
 from ..model.schema import given
-from ..model.sequence.ending import undone_at_end
+from ..model.sequence.ending import fell_by_itself, undone_at_end
 from ..model.sequence.rest import Rest, last_event_s
-from ..model.sequence.undisturbed import fell_by_itself
 from ..model.structure.settlement import settlements
 from ..scene.as_built import kept_stability
 from ..scene.bodies import terrain_facts

@@ -19,7 +19,7 @@ from pathlib import Path
 from typing import Any, Self
 
 from ..errors import ScenarioError, SimulationError
-from ..model.study.files import SIMULATED_FILE
+from ..model.study.file import SIMULATED_FILE
 from ..model.study.runs_table import CRASHED, DONE, KILLED, OUT_OF_MEMORY, REFUSED, TIMED_OUT, RunOutcome
 from ..model.study.settings import EnsembleSettings
 from .answering_program import KILLING_SIGNALS, AnsweringProgram

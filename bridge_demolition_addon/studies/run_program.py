@@ -23,7 +23,7 @@ from ..model.scenario.file import scenario_from_text
 from ..model.sequence.checked_model import check_actions
 from ..model.structure.kept_models import KeptModels
 from ..model.structure.model import Model
-from ..model.study.files import OUTLINES_FILE, RUN_FOLDER, SIMULATED_FILE
+from ..model.study.file import OUTLINES_FILE, RUN_FOLDER, SIMULATED_FILE
 from ..model.study.outcome import evaluate
 from ..model.study.settings import EnsembleSettings
 from ..model.toml_tables import table_of_document, toml_document

@@ -14,8 +14,7 @@ from ..model.optimise.planner import OptimisePlanner
 from ..model.search.conclusions import Answer
 from ..model.search.file import Search
 from ..model.search.planner import SearchPlanner
-from ..model.study.file import Ensemble, Study
-from ..model.study.files import CURVE_PICTURE, TRADEOFF_PICTURE
+from ..model.study.file import CURVE_PICTURE, TRADEOFF_PICTURE, Ensemble, Study
 from ..model.study.planner import Planner, StudyPlanner
 from .engine import Engine
 from .proposals import OptunaProposals, check_optuna

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import SimulationError
-from ..model.results.connection_counts import ConnectionCounts
+from ..model.results.collapse import ConnectionCounts
 from ..model.study.runs_table import DONE
 from .answering_program import AnsweringProgram
 

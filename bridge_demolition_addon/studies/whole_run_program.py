@@ -14,7 +14,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any, NoReturn
 
-from ..model.results.connection_counts import ConnectionCounts
+from ..model.results.collapse import ConnectionCounts
 from ..model.scenario.file import scenario_from_text
 from ..system.programs import program_command
 from ..system.progress import Counts, Progress

@@ -12,12 +12,10 @@ from bpy.props import BoolProperty, EnumProperty, IntProperty, StringProperty
 from ..engineering.blast.wave import Burst
 from ..engineering.geometry.mesh import TriangleMesh, joined_meshes
 from ..errors import DemolitionError
-from ..model.blast.charges import EXPLOSIVES, Charge
-from ..model.blast.new_charge import is_on_bridge, place_at_pier
+from ..model.blast.charges import EXPLOSIVES, Charge, is_on_bridge, place_at_pier
 from ..model.blast.settings import Apply
-from ..model.bridge.member import Member
+from ..model.bridge.member import Member, is_standing
 from ..model.bridge.mesh_files import placed_mesh
-from ..model.bridge.own_axes import is_standing
 from ..model.bridge.parametric import bridge_members
 from ..model.scenario import BlastSettings
 from ..scene.blast.charges import (

@@ -22,7 +22,7 @@ from support.checkout import PRESETS, ROOT, SEEDED
 from support.example_measures import deck_falls
 from support.example_runs import ExampleRun
 
-from bridge_demolition_addon.model.debris.free_fall import landed
+from bridge_demolition_addon.model.debris.footprint import landed
 from bridge_demolition_addon.model.results.arrays import Results
 from bridge_demolition_addon.model.results.motion import MOVED_M, relative_to_ground
 from bridge_demolition_addon.model.scenario import Scenario

@@ -11,8 +11,7 @@ import sys
 import numpy as np
 from scipy.special import ndtr, ndtri
 
-from bridge_demolition_addon.engineering.search.bisection import median_interval
-from bridge_demolition_addon.engineering.search.neyer import NeyerTest
+from bridge_demolition_addon.engineering.search.neyer import NeyerTest, median_interval
 from bridge_demolition_addon.engineering.search.probit import LevelOutcomes, fitted, limit
 
 CONFIDENCE, PROBABILITY, GUESS = 0.95, 0.9, 0.1

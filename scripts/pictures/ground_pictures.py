@@ -10,7 +10,7 @@ import numpy as np
 
 from bridge_demolition_addon.charts.ground_motion import ground_motion_history, response_spectra
 from bridge_demolition_addon.charts.style import blank_figure, line_style
-from bridge_demolition_addon.engineering.foundations.footings import Footings, SoilSprings
+from bridge_demolition_addon.engineering.foundations import Footings, SoilSprings
 from bridge_demolition_addon.model.ground_motion.settings import DesignSpectrum, GroundMotion
 from bridge_demolition_addon.model.ground_motion.sources import ground_record
 

@@ -7,7 +7,7 @@ import pytest
 
 from bridge_demolition_addon.cli.main import main
 from bridge_demolition_addon.engineering.blast.pulses import blast_wave
-from bridge_demolition_addon.model.blast.damage import THRESHOLDS
+from bridge_demolition_addon.model.blast.receptors import THRESHOLDS
 
 
 def printed(capsys, *arguments):

@@ -12,7 +12,7 @@ from io import StringIO
 import pytest
 
 from bridge_demolition_addon.cli.progress import PlainLines, Silence, StepsOfLongWork, TerminalBar, progress_on
-from bridge_demolition_addon.model.results.connection_counts import ConnectionCounts
+from bridge_demolition_addon.model.results.collapse import ConnectionCounts
 
 if sys.platform != "win32":
     import fcntl

@@ -11,7 +11,7 @@ from support.sample_results import G, changed, hanging_chain, without_connection
 
 from bridge_demolition_addon.display.key_figures import RunFigures
 from bridge_demolition_addon.model.debris.throws import debris_of
-from bridge_demolition_addon.model.results.connection_counts import ConnectionCounts
+from bridge_demolition_addon.model.results.collapse import ConnectionCounts
 
 LAST = 4
 """Row in which *lower* has moved by 3 m and 4 m."""

@@ -8,8 +8,7 @@ from support.checkout import EXAMPLES
 from support.long_cases import long_but
 
 from bridge_demolition_addon.model.scenario.file import read_scenario
-from bridge_demolition_addon.model.stages.stability import STANDS
-from bridge_demolition_addon.model.stages.stability_by_statics import stability_of
+from bridge_demolition_addon.model.stages.stability import STANDS, stability_of
 from bridge_demolition_addon.model.structure.model import build_model
 
 FOLDER = EXAMPLES / "arches_and_frames"

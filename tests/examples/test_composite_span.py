@@ -9,8 +9,7 @@ from support.checkout import EXAMPLES
 from bridge_demolition_addon.engineering.steelwork.catalogue import section_named
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.model.scenario.file import read_scenario
-from bridge_demolition_addon.model.stages.stability import STANDS
-from bridge_demolition_addon.model.stages.stability_by_statics import stability_of
+from bridge_demolition_addon.model.stages.stability import STANDS, stability_of
 from bridge_demolition_addon.model.structure.equilibrium import model_at_rest
 from bridge_demolition_addon.model.structure.model import build_model
 from bridge_demolition_addon.model.structure.steel_bars import bar_uses

@@ -11,7 +11,7 @@ from support.checkout import EXAMPLES, ROOT
 from bridge_demolition_addon.engineering.units import rounded_up
 from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.model.sequence.checked_model import checked_model
-from bridge_demolition_addon.model.stages.stability_by_statics import stability_of
+from bridge_demolition_addon.model.stages.stability import stability_of
 from bridge_demolition_addon.model.structure.facts import connection_facts
 from bridge_demolition_addon.model.study.file import read_study
 from bridge_demolition_addon.model.study.runs_table import REACH, RESTED, read_runs

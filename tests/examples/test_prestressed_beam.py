@@ -7,8 +7,7 @@ import pytest
 from support.checkout import EXAMPLES
 
 from bridge_demolition_addon.model.scenario.file import read_scenario
-from bridge_demolition_addon.model.stages.stability import COMES_DOWN, STANDS
-from bridge_demolition_addon.model.stages.stability_by_statics import stability_of
+from bridge_demolition_addon.model.stages.stability import COMES_DOWN, STANDS, stability_of
 from bridge_demolition_addon.model.structure.model import build_model
 
 FILE = EXAMPLES / "prestressed" / "beam_cut_in_stages.toml"

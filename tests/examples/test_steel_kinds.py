@@ -9,7 +9,7 @@ from support.checkout import EXAMPLES, PRESETS, ROOT
 
 from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.model.sequence.checked_model import checked_model
-from bridge_demolition_addon.model.stages.stability_by_statics import stability_of
+from bridge_demolition_addon.model.stages.stability import stability_of
 
 ROW = re.compile(r"\| \*(?P<name>[^*]+)\* \| (?P<mass>\d+) t \| (?P<least>[\d.]+)(?: to (?P<most>[\d.]+))? \|")
 FILES = {

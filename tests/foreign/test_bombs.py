@@ -15,7 +15,7 @@ from bridge_demolition_addon.ifc.source import open_source
 from bridge_demolition_addon.model.scenario.bodies import Ground
 from bridge_demolition_addon.model.terrain.files import read_terrain
 from bridge_demolition_addon.model.terrain.landxml import read_landxml
-from bridge_demolition_addon.model.terrain.point_cloud import read_cloud
+from bridge_demolition_addon.model.terrain.point_files import read_cloud
 from bridge_demolition_addon.system.isolated import isolated
 
 ENTITIES = "".join(f'<!ENTITY e{n} "{f"&e{n - 1};" * 10}">' for n in range(1, 12))
@@ -53,7 +53,7 @@ def test_a_strip_of_a_tiff_that_unpacks_to_half_a_gigabyte(tmp_path):
     path = tiff_of_one_strip(tmp_path / "bomb.tif", 500_000_000)
     assert path.stat().st_size < 3_000_000
     request = {"path": str(path), "kept": str(tmp_path / "kept.npz"), "no_data": None, "scale": 1.0}
-    said = refusal_of(isolated, "model.terrain.geotiff_program", request | {"most_heights": 10**6}, 60.0, 600_000_000)
+    said = refusal_of(isolated, "model.terrain.geotiff", request | {"most_heights": 10**6}, 60.0, 600_000_000)
     assert "unpacks to more than there is memory for" in said
 
 

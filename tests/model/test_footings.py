@@ -7,7 +7,7 @@ import pytest
 from bridge_demolition_addon.engineering.elasticity.equations import RigidBodies
 from bridge_demolition_addon.engineering.elasticity.joint_rows import JointFrames
 from bridge_demolition_addon.engineering.elasticity.structure import ElasticStructure, StepInput
-from bridge_demolition_addon.engineering.foundations.footings import SOILS, Footings, SoilSprings
+from bridge_demolition_addon.engineering.foundations import SOILS, Footings, SoilSprings
 from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.foundations import Foundation
 from bridge_demolition_addon.model.scenario import Scenario

@@ -6,8 +6,7 @@ from __future__ import annotations
 import numpy as np
 
 from bridge_demolition_addon.engineering.geometry.proximity import ranges
-from bridge_demolition_addon.engineering.geometry.rotations import carried_points
-from bridge_demolition_addon.engineering.geometry.vectors import cross_by_component, product
+from bridge_demolition_addon.engineering.geometry.vectors import carried_points, cross_by_component, product
 from bridge_demolition_addon.engineering.mechanics.carried_sections import CarriedSections
 from bridge_demolition_addon.engineering.mechanics.section_cuts import ConnectedFaces, ConnectionLoads, SectionCuts
 from bridge_demolition_addon.engineering.mechanics.section_forces import SectionForces, section_forces

@@ -17,8 +17,8 @@ from case import RIGID_BODIES, simulated
 
 from bridge_demolition_addon.display.contour_quantities import ContourQuantity
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
-from bridge_demolition_addon.model.results.bar_extremes import bars_text, largest_use_text
-from bridge_demolition_addon.model.results.connection_counts import ConnectionCounts
+from bridge_demolition_addon.model.results.collapse import ConnectionCounts
+from bridge_demolition_addon.model.results.extremes import bars_text, largest_use_text
 from bridge_demolition_addon.report.run_folder import read_run
 from bridge_demolition_addon.report.sections.reinforcement import bar_blocks, use_histories
 from bridge_demolition_addon.ui.results.shown_run import lines_of

@@ -26,7 +26,7 @@ from bridge_demolition_addon.engineering.mechanics.strength import Strength
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.model.results.arrays import load_results
 from bridge_demolition_addon.model.scenario import ConnectionSettings, ShardSettings
-from bridge_demolition_addon.model.scenario.connections_between import ConnectionBetween
+from bridge_demolition_addon.model.scenario.joint_settings import ConnectionBetween
 from bridge_demolition_addon.model.structure.equilibrium import deflection_m, model_at_rest
 from bridge_demolition_addon.model.structure.model import build_model
 from bridge_demolition_addon.scene.bodies import bodies_of

@@ -8,7 +8,7 @@ import pytest
 from support.blocks import Blocks
 
 from bridge_demolition_addon.cli.progress import Silence
-from bridge_demolition_addon.engineering.ground_motion.record import GroundRecord, integrated
+from bridge_demolition_addon.engineering.ground_motion import GroundRecord, integrated
 from bridge_demolition_addon.engineering.timing.timeline import Timeline
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.model.ground_motion.settings import GroundMotion, Sweep

@@ -10,7 +10,7 @@ from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.results.arrays import load_results
-from bridge_demolition_addon.model.results.solver_energy import throws_of
+from bridge_demolition_addon.model.results.energy import throws_of
 from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.simulation.run import run_scenario
 

@@ -17,7 +17,7 @@ from bridge_demolition_addon.display.preview_outcome import GAP_M, PreviewOutcom
 from bridge_demolition_addon.engineering.geometry.plan_areas import without_gaps
 from bridge_demolition_addon.errors import SimulationError
 from bridge_demolition_addon.model.bridge.preparation import prepared_members
-from bridge_demolition_addon.model.debris.free_fall import landed
+from bridge_demolition_addon.model.debris.footprint import landed
 from bridge_demolition_addon.model.debris.throws import debris_of
 from bridge_demolition_addon.model.scenario.file import read_scenario, scenario_from_text, scenario_text
 from bridge_demolition_addon.model.sequence.checked_model import checked_model

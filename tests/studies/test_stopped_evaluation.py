@@ -11,8 +11,7 @@ from support.study_files import study_file
 from bridge_demolition_addon.model.ensemble.folder import EnsembleFolder
 from bridge_demolition_addon.model.scenario.file import scenario_text
 from bridge_demolition_addon.model.structure.kept_models import KeptModels
-from bridge_demolition_addon.model.study.file import read_study
-from bridge_demolition_addon.model.study.files import OUTLINES_FILE, SIMULATED_FILE
+from bridge_demolition_addon.model.study.file import OUTLINES_FILE, SIMULATED_FILE, read_study
 from bridge_demolition_addon.model.study.runs_table import KILLED, RunOutcome
 from bridge_demolition_addon.model.study.settings import EnsembleSettings
 from bridge_demolition_addon.studies import run_program

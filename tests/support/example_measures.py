@@ -15,7 +15,7 @@ from support.example_runs import ExampleRun
 from bridge_demolition_addon.model.bridge import deck_underside
 from bridge_demolition_addon.model.bridge.layout import pier_axes
 from bridge_demolition_addon.model.debris.throws import debris_of
-from bridge_demolition_addon.model.results.solver_energy import is_known, made_share, throws_of
+from bridge_demolition_addon.model.results.energy import is_known, made_share, throws_of
 from bridge_demolition_addon.model.results.summary import first_hit_s
 from bridge_demolition_addon.model.scenario import Scenario
 

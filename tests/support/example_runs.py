@@ -11,11 +11,10 @@ import numpy as np
 from support.checkout import ROOT, SEEDED
 
 from bridge_demolition_addon.cli.progress import Silence
-from bridge_demolition_addon.model.results.arrays import Results, load_results
-from bridge_demolition_addon.model.results.fingerprint import SHORT, motion_digest
+from bridge_demolition_addon.model.results.arrays import SHORT, Results, load_results, motion_digest
 from bridge_demolition_addon.model.scenario import Scenario
 from bridge_demolition_addon.model.scenario.file import read_scenario
-from bridge_demolition_addon.model.sequence.undisturbed import first_event_s
+from bridge_demolition_addon.model.sequence.ending import first_event_s
 from bridge_demolition_addon.system.signals import Interrupted
 
 

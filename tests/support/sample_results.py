@@ -8,8 +8,7 @@ import numpy as np
 from bridge_demolition_addon.engineering.mechanics.frame_loads import FrameLoads, LoadAccumulator, SubstepLoads
 from bridge_demolition_addon.engineering.mechanics.work import FrameWork
 from bridge_demolition_addon.model.results.arrays import Results
-from bridge_demolition_addon.model.results.frames import BallHistory, ContactHistory, Frame, FrameSeries
-from bridge_demolition_addon.model.results.inventory import Inventory
+from bridge_demolition_addon.model.results.frames import BallHistory, ContactHistory, Frame, FrameSeries, Inventory
 
 G = 9.80665
 GRAVITY = np.array([0.0, 0.0, -G])

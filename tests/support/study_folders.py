@@ -12,8 +12,7 @@ from bridge_demolition_addon.model.ensemble.folder import EnsembleFolder
 from bridge_demolition_addon.model.scenario import Exclusion, Neighbour, Site, Zone
 from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.model.study.criteria import Criterion
-from bridge_demolition_addon.model.study.file import study_of
-from bridge_demolition_addon.model.study.files import OUTLINES_FILE, RUNS_FILE
+from bridge_demolition_addon.model.study.file import OUTLINES_FILE, RUNS_FILE, study_of
 from bridge_demolition_addon.model.study.outcome import Outlines
 from bridge_demolition_addon.model.study.runs_table import RunOutcome, RunRow, RunsTable, write_runs
 from bridge_demolition_addon.model.study.sampled_runs import sampled_run

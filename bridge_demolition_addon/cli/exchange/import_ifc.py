@@ -11,7 +11,7 @@ from ...ifc.materials import write_material_table
 from ...ifc.settings import KINDS, UNITS, ImportSettings
 from ...model.scenario.file import read_scenario
 from ...model.sequence.checked_model import checked_model
-from ...model.stages.stability_by_statics import stability_of
+from ...model.stages.stability import stability_of
 from ..progress import progress_on
 
 _MOST_SHARDS = 1_000_000

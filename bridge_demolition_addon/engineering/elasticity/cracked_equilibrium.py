@@ -18,7 +18,7 @@ import numpy as np
 
 from ..arithmetic import LARGEST_ANGLE
 from ..arrays import BoolArray, FloatArray, IntArray
-from ..geometry.rotations import rotated
+from ..geometry.vectors import rotated
 from .bearings import Bearings
 from .cracks import Cracks
 from .equations import RigidBodies, connected_parts

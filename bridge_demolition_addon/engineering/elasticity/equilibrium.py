@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray
-from ..geometry.rotations import rotated
+from ..geometry.vectors import rotated
 from .bearings import Bearings
 from .equations import RigidBodies, connected_parts, spring_forces, stiffness_blocks, summed_on_bodies, without
 from .frequencies import SLACK, first_frequency

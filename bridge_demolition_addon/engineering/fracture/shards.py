@@ -18,7 +18,7 @@ from ..arithmetic import cube_root, power
 from ..arrays import BoolArray, FloatArray, IntArray
 from ..geometry.mesh import TriangleMesh, joined_meshes, triangle_areas_and_normals, volumes_and_centres
 from ..geometry.proximity import ranges
-from ..geometry.seams import sewn
+from ..geometry.repair import sewn
 from ..geometry.solids import bodies, contains, from_manifold, to_manifold
 from .options import PLAIN, FractureOptions, Recursion, through_thickness
 from .seeds import moved_points, random_points

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..arrays import BoolArray, FloatArray
 from .mesh import TriangleMesh
-from .rotations import turn_by_degrees
+from .vectors import turn_by_degrees
 
 _Corner = tuple[float, float, float]
 

@@ -16,8 +16,7 @@ import numpy as np
 from ..arrays import FloatArray, IntArray
 from ..core.calls import call
 from ..core.structs import Count, Doubles, Pointer, Struct
-from ..geometry.rotations import carried_axes
-from ..geometry.vectors import length
+from ..geometry.vectors import carried_axes, length
 from .section_cuts import ConnectionLoads
 
 _CACHE_LINE = 64

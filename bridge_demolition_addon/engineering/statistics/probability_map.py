@@ -14,7 +14,7 @@ import numpy as np
 from manifold3d import CrossSection
 
 from ..arrays import FloatArray, IntArray
-from ..geometry.plan_cells import PlanCells
+from ..geometry.plan_areas import PlanCells
 from .binomial import upper_limit
 from .order_limits import least_runs
 

@@ -1,20 +1,20 @@
-"""Where a bridge's members begin and end: axes along the road, heights, and what skew does to them."""
+"""Where a bridge's members begin and end: axes along the road, heights, skew, and the ground under them."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
 
 from ...engineering.geometry.mesh import TriangleMesh
-from ...engineering.geometry.rotations import turn_in_plane
-from ...engineering.geometry.vectors import transformed
+from ...engineering.geometry.vectors import transformed, turn_in_plane
+from ...errors import GeometryError
 from ..actions import Fact
 from ..scenario import Bridge
-from ..scenario.bridge_axes import arch_axis, leg_axes_m
+from ..scenario.bridge_checks import arch_axis, leg_axes_m
 from ..schema import given
 
 
@@ -97,3 +97,32 @@ def turned_with_axis(bridge: Bridge, solid: TriangleMesh, along: float, across: 
     vertices = solid.vertices.copy()
     vertices[:, :2] = transformed(rotation, vertices[:, :2] - (along, across)) + on_axis
     return replace(solid, vertices=vertices)
+
+
+GroundHeight = Callable[[str, float, float], float]
+"""How high the ground is, m, under a member of a name with its middle at x and y."""
+
+_SHORTEST_M = 0.1
+"""Least height of what stands on the ground."""
+
+
+def level_ground(_name: str, _x_m: float, _y_m: float) -> float:
+    """Height of ground that is flat, m."""
+    return 0.0
+
+
+def foot_m(name: str, x_m: float, y_m: float, top_m: float, ground: GroundHeight) -> float:
+    """Return the height of the ground under a member, m.
+
+    Raises
+    ------
+    GeometryError
+        The ground is above its top, or nearly so.
+    """
+    foot = ground(name, x_m, y_m)
+    if foot > max(top_m - _SHORTEST_M, 0.0):  # on level ground the keys say how high a pier has to be
+        raise GeometryError(
+            f"The ground is at {foot:.2f} m under {name}, whose top is at {top_m:.2f} m; make the bridge "
+            "higher, or the ground lower there: ground.profile_m, or ground.origin of a file."
+        )
+    return foot

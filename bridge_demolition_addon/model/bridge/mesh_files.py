@@ -11,9 +11,8 @@ import numpy as np
 
 from ...engineering.geometry.mesh import TriangleMesh
 from ...engineering.geometry.repair import Repaired, repaired_solid
-from ...engineering.geometry.rotations import turn_by_degrees
 from ...engineering.geometry.solids import union
-from ...engineering.geometry.vectors import transformed
+from ...engineering.geometry.vectors import transformed, turn_by_degrees
 from ...errors import GeometryError, ScenarioError, UnreadableError
 from ..mesh_reading import from_y_up, read_mesh
 from ..scenario import Geometry

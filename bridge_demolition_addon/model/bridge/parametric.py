@@ -12,15 +12,12 @@ from ...engineering.geometry.mesh import TriangleMesh
 from ...engineering.geometry.solids import union
 from ...errors import ScenarioError
 from ..scenario import Bridge
-from ..scenario.arch import ARCH_KIND, BLOCK_KIND, Arch
+from ..scenario.arch import ARCH_KIND, BLOCK_KIND, Arch, RigidFrame
 from ..scenario.bridge_parts import Abutments, Deck, Girders, PierCaps, Piers
-from ..scenario.frame import RigidFrame
 from ..schema import given
-from .frame import LEG
-from .ground import GroundHeight, level_ground
-from .layout import deck_top, deck_underside, slab_underside
+from .layout import GroundHeight, deck_top, deck_underside, level_ground, slab_underside
 from .member import Member
-from .substructure import substructure
+from .substructure import LEG, substructure
 from .superstructure import superstructure
 
 _SAME_LEVEL_M = 1e-9

@@ -2,21 +2,121 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
 
-from ...engineering.geometry.arches import across_road
+from ...engineering.geometry.arches import RoadProfile, across_road
 from ...engineering.geometry.mesh import TriangleMesh
 from ...engineering.geometry.solids import box, round_column
+from ...engineering.geometry.vectors import unit
 from ..scenario import Bridge
+from ..scenario.arch import ARCH_KIND, BLOCK_KIND
+from ..scenario.bridge_checks import arch_axis, axes_on_arch_m, leg_axes_m, rib_axes_m, springing_axes_m
 from ..scenario.bridge_parts import Abutments, PierCaps
 from ..schema import given
-from .arch import above_arch, arch_members
-from .frame import frame_legs
-from .ground import GroundHeight, foot_m, level_ground
-from .layout import deck_underside, pier_axes, skewed, turned_with_axis, without_shear, without_turn
+from .layout import (
+    GroundHeight,
+    deck_top,
+    deck_underside,
+    foot_m,
+    level_ground,
+    pier_axes,
+    skewed,
+    turned_with_axis,
+    without_shear,
+    without_turn,
+)
 from .member import Member
+
+LEG = "leg"
+
+
+def frame_legs(bridge: Bridge, ground: GroundHeight) -> list[Member]:
+    """Return every leg, down to the ground under the middle of its foot. They are numbered along the road."""
+    frame, axes = given(bridge.frame), leg_axes_m(bridge)
+    members = []
+    for number, (axis, lean) in enumerate(zip(axes, frame.leans_m(len(axes)), strict=True), start=1):
+        for leg in range(frame.legs):
+            name = f"leg {number}" if frame.legs == 1 else f"leg {number}.{leg + 1}"
+            across = bridge.deck.width_m * ((leg + 0.5) / frame.legs - 0.5)
+            members.append(_leg(bridge, name, (axis, across), lean, ground))
+    return members
+
+
+def deck_profile(bridge: Bridge, begin_m: float, end_m: float) -> RoadProfile:
+    """Return the deck with its haunches between its ends along the road."""
+    frame = given(bridge.frame)
+    half = 0.5 * frame.leg_thickness_m
+    away = half + frame.haunch_length_m
+    corners = [
+        (axis + side, frame.clear_height_m - (frame.haunch_depth_m if abs(side) == half else 0.0))
+        for axis in leg_axes_m(bridge)
+        for side in (-away, -half, half, away)
+    ]
+    along, heights = (np.array(column) for column in zip(*corners, strict=True))
+    inside = (along > begin_m) & (along < end_m)
+    x = np.concatenate(([begin_m], along[inside], [end_m]))
+    undersides = np.interp(x, along, heights)
+    return RoadProfile(np.column_stack((x, undersides)), np.column_stack((x, np.full(len(x), deck_top(bridge)))))
+
+
+def _leg(bridge: Bridge, name: str, top_m: tuple[float, float], lean_m: float, ground: GroundHeight) -> Member:
+    frame, (axis, across) = given(bridge.frame), top_m
+    half, top = 0.5 * frame.leg_thickness_m, frame.leg_top_m
+    foot = foot_m(name, axis + lean_m, across, top, ground)
+    at_foot = axis + lean_m
+    corners = [(at_foot - half, foot), (at_foot + half, foot), (axis + half, top), (axis - half, top)]
+    solid = across_road(np.array(corners), frame.leg_width_m, across)
+    if lean_m == 0.0:
+        return Member(name, LEG, solid)
+    along, up = unit(np.array([-lean_m, top - foot])).tolist()
+    return Member(name, LEG, solid, parts=(solid,), directions=((along, up),))
+
+
+def arch_members(bridge: Bridge, ground: GroundHeight) -> list[Member]:
+    """Return the ribs, whose straight pieces are their convex parts, and the thrust blocks on the ground."""
+    profile = arch_axis(bridge).profile(axes_on_arch_m(bridge), given(bridge.piers).column_length_m)
+    ends = np.stack((profile.undersides_m, profile.tops_m))[:, [0, -1]]
+    blocks = (_thrust_block(bridge, number, ends[:, number], ground) for number in range(2))
+    return [*_ribs(bridge, profile), *blocks]
+
+
+def above_arch(bridge: Bridge, ground: GroundHeight) -> GroundHeight:
+    """Return the height of what piers and abutments stand on: the arch, its thrust blocks, else the ground."""
+    if bridge.arch is None:
+        return ground
+    axis, length = arch_axis(bridge), given(bridge.piers).column_length_m
+    seats = {position: axis.seat_m(position, length) for position in axes_on_arch_m(bridge)}
+    block_top = float(axis.points_m(np.array([axis.begin_m]), 1.0)[0, 1])
+    levels = seats | dict.fromkeys(springing_axes_m(bridge), block_top)
+    return lambda name, x_m, y_m: levels[x_m] if x_m in levels else ground(name, x_m, y_m)
+
+
+def _ribs(bridge: Bridge, profile: RoadProfile) -> Iterator[Member]:
+    arch = given(bridge.arch)
+    directions = tuple((along, up) for along, up in profile.directions.tolist())
+    for number, across in enumerate(rib_axes_m(bridge), start=1):
+        yield Member(
+            ARCH_KIND if arch.ribs == 1 else f"{ARCH_KIND} rib {number}",
+            ARCH_KIND,
+            profile.solid(arch.width_m, across),
+            parts=profile.pieces(arch.width_m, across),
+            is_in_pieces=True,
+            directions=directions,
+        )
+
+
+def _thrust_block(bridge: Bridge, number: int, section_m: np.ndarray, ground: GroundHeight) -> Member:
+    """Return the block behind the first or the last section of the arch, its underside and top (2, 2)."""
+    arch, axis, name = given(bridge.arch), springing_axes_m(bridge)[number], f"{BLOCK_KIND} {number + 1}"
+    (inside, underside), (top_x, top) = section_m
+    foot = foot_m(name, axis, 0.0, float(underside), ground)
+    outside = inside - arch.block_length_m if number == 0 else inside + arch.block_length_m
+    corners = [(outside, foot), (inside, foot), (inside, underside), (top_x, top), (outside, top)]
+    width = rib_axes_m(bridge)[-1] - rib_axes_m(bridge)[0] + arch.width_m
+    return Member(name, BLOCK_KIND, across_road(np.array(corners if number == 0 else corners[::-1]), width))
 
 
 def substructure(bridge: Bridge, ground: GroundHeight = level_ground) -> list[Member]:

@@ -9,9 +9,9 @@ from ...engineering.geometry.mesh import TriangleMesh
 from ...engineering.geometry.solids import box, difference, union
 from ..scenario import Bridge
 from ..schema import given
-from .frame import deck_profile
 from .layout import deck_ends, deck_top, deck_underside, skewed, slab_underside, without_shear
 from .member import Member
+from .substructure import deck_profile
 
 _BEYOND_M = 1.0
 """How far what is cut out of a box girder extends beyond its ends: any length does that leaves no skin there."""

@@ -13,12 +13,11 @@ from ...errors import GeometryError, ScenarioError, UnreadableError
 from ..mesh_reading import MESH_FILES, read_points_of_mesh
 from ..results.arrays import Results
 from ..results.motion import relative_to_ground
-from ..terrain.ascii_grid import read_ascii_grid
+from ..terrain.file_heights import read_ascii_grid
 from ..terrain.files import GRID_FILES, POINT_FILES, TIFF_FILES
 from ..terrain.geotiff import read_geotiff
 from ..terrain.placed import Placing
-from ..terrain.point_cloud import CLOUD_FILES, read_cloud
-from ..terrain.point_files import point_rows
+from ..terrain.point_files import CLOUD_FILES, point_rows, read_cloud
 from .footprint import footprint
 from .throws import debris_of, heights_over
 

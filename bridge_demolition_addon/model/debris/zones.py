@@ -12,9 +12,8 @@ from manifold3d import CrossSection, Manifold
 from ...engineering.arithmetic import cosine
 from ...engineering.arrays import Rows
 from ...engineering.geometry.plan_areas import signed_area
-from ...engineering.geometry.rotations import rotated, rotation_vectors
 from ...engineering.geometry.solids import hull
-from ...engineering.geometry.vectors import length, transformed
+from ...engineering.geometry.vectors import length, rotated, rotation_vectors, transformed
 from ..results.arrays import Results
 from ..results.motion import relative_to_ground
 from ..scenario import Zone

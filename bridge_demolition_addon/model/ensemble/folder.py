@@ -29,8 +29,7 @@ from ..run_folder.files import SCENARIO_FILE
 from ..search.conclusions import Answer, answer_of, write_curve
 from ..search.file import Search, read_search
 from ..study.conclusions import Conclusions, conclusions
-from ..study.file import Ensemble, Study, read_study
-from ..study.files import (
+from ..study.file import (
     CANDIDATES_FILE,
     CURVE_FILE,
     OPTIMISE_FILE,
@@ -42,6 +41,9 @@ from ..study.files import (
     SIMULATED_FILE,
     STUDY_FILE,
     VERSIONS_FILE,
+    Ensemble,
+    Study,
+    read_study,
 )
 from ..study.outcome import Outlines
 from ..study.runs_table import (

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ...engineering.ground_motion.record import GroundRecord, integrated
+from ...engineering.ground_motion import GroundRecord, integrated
 from ...errors import ScenarioError, UnreadableError
 from ...system.reading import MEGABYTE, csv_rows, file_text
 from .settings import DIRECTIONS

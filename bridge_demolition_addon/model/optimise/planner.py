@@ -11,10 +11,9 @@ from ..study.planner import Planner
 from ..study.runs_table import DONE, RunOutcome, RunRow
 from ..study.sampled_runs import SampledRun
 from .conclusions import CANDIDATE, ROUND
-from .file import Optimisation
+from .file import Optimisation, total_charge_kg
 from .rounds import CandidateRun, Proposals, Rounds
 from .settings import CHARGE
-from .space import total_charge_kg
 
 
 class OptimisePlanner(Planner[Optimisation]):

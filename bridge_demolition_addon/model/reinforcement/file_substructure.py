@@ -11,7 +11,7 @@ from ...engineering.reinforced_concrete.columns import ColumnSection, design_mom
 from ...engineering.reinforced_concrete.influence_lines import MovingLoad, extreme_effects, influence_lines
 from ...engineering.reinforced_concrete.least_areas import LARGEST_SHARE, level_of_wall_m2, upright_of_wall_m2
 from ...engineering.reinforced_concrete.materials import PERMANENT_FACTOR, VARIABLE_FACTOR
-from ..bridge.own_axes import own_axes
+from ..bridge.member import own_axes
 from .beam_effects import beam_effects
 from .design_basis import LEAST, column_loads
 from .file_decks import FileDeckLine, beam_rows

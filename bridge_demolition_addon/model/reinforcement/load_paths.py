@@ -10,8 +10,7 @@ import numpy as np
 from ...engineering.fracture.shared_faces import touching_faces
 from ...engineering.geometry.mesh import joined_meshes
 from ...engineering.geometry.own_axes import OwnAxes, lying_axes
-from ..bridge.member import Member
-from ..bridge.own_axes import own_axes
+from ..bridge.member import Member, own_axes
 from ..scenario import Scenario
 from ..scenario.bearings import Bearing, names_one
 from ..scenario.scenario import bearing_tables

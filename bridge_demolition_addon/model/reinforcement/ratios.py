@@ -6,12 +6,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ..bridge.member import Member, members_named
-from ..bridge.own_axes import own_axes
+from ..bridge.member import Member, members_named, own_axes
 from ..materials.bar_layers import BarLayer
 from ..scenario import RatiosOfMember
 from ..scenario.arch import ARCH_KIND
-from ..scenario.bridge_axes import arch_axis
+from ..scenario.bridge_checks import arch_axis
 from .design_basis import DesignBasis
 from .schedule import ScheduledBars, ScheduledLinks
 

@@ -1,10 +1,15 @@
-"""Everything a run recorded, and the files that keep it."""
+"""Everything a run recorded, the files that keep it, and the digests that tell whether two runs are the same.
+
+One is of what was built, one of how everything moved and broke, and one of all results. Where the first differs,
+something else was simulated. Where only the others do, Blender's own arithmetic differs.
+"""
 
 from __future__ import annotations
 
+import hashlib
 import zipfile
 import zlib
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import Field, dataclass, fields, is_dataclass
 from pathlib import Path
 from typing import Any, ClassVar, Protocol, TypeVar
@@ -18,12 +23,11 @@ from ...engineering.mechanics.work import FrameWork
 from ...engineering.terrain.recorded import NamedSurface, RecordedGround
 from ...engineering.terrain.surface import Surface
 from ...errors import OutputError, UnreadableError
-from ...system.array_files.archive import read_archive, write_archive
+from ...system.array_files.archive import blocks_of, read_archive, write_archive
 from ...system.array_files.table import stored_rows
 from ...system.reading import check_file
 from .checks import check_arrays
-from .frames import BallHistory, ContactHistory, Frame, FrameSeries
-from .inventory import Inventory
+from .frames import BallHistory, ContactHistory, Frame, FrameSeries, Inventory
 
 RESULTS_FILE = "results.npz"
 FRAMES_FILE, BALLS_FILE, INVENTORY_FILE = "results_frames.npy", "results_balls.npy", "results_inventory.npz"
@@ -251,3 +255,56 @@ def _work(arrays: Mapping[str, np.ndarray]) -> FrameWork:
 
 def _stored_name(kind: type, name: str) -> str:
     return _STORED_NAMES.get(kind, {}).get(name, name)
+
+
+SHORT = 8
+"""Digits of a digest that are enough to tell runs apart by eye."""
+
+_OF_BARS = ("dissipated_by_bars_j", "dissipated_by_crack_friction_j", "connection_bars")
+"""Arrays that say something of runs with bars alone; the others have the digests that they had before these."""
+
+_KEPT_AS = {"i": np.dtype("<i8"), "u": np.dtype("<i8"), "f": np.dtype("<f8")}
+"""One width on every system, by the kind of number: numpy's default integers had 32 bits on Windows before numpy 2."""
+
+
+def digest(parts: Mapping[str, Any]) -> str:
+    """Return the SHA-256 of named arrays, numbers and texts, as hexadecimal digits; their order does not count."""
+    sha = hashlib.sha256()
+    for name in sorted(parts):
+        values = np.asarray(parts[name])
+        if values.dtype.kind == "U":
+            text = "\0".join(values.ravel().tolist()).encode()
+            contents: Iterable[bytes] = [text]
+            size = len(text)
+        else:
+            kept = _KEPT_AS.get(values.dtype.kind, np.dtype("u1"))
+            contents = (block.astype(kept).tobytes() for block in blocks_of(values))
+            size = values.size * kept.itemsize
+        sha.update(f"{name}:{values.shape}:{size}:".encode())
+        for content in contents:
+            sha.update(content)
+    return sha.hexdigest()
+
+
+def known_parts(record: Any) -> dict[str, Any]:
+    """Return the fields of a dataclass that are not None, by name."""
+    parts = {item.name: getattr(record, item.name) for item in fields(record)}
+    return {name: values for name, values in parts.items() if values is not None}
+
+
+def motion_digest(results: Results) -> str:
+    """Return the digest of how all bodies moved, what broke and what exploded: all of frames but loads and work.
+
+    It is the same whether loads were recorded or not.
+    """
+    parts = {field.name: getattr(results.frames, field.name) for field in fields(results.frames)}
+    return digest({name: part for name, part in parts.items() if not is_dataclass(part)})
+
+
+def result_digest(results: Results) -> str:
+    """Return the digest of everything that was recorded."""
+    return digest({name: values for name, values in results.arrays().items() if _counts(name, values)})
+
+
+def _counts(name: str, values: np.ndarray) -> bool:
+    return name not in _OF_BARS or bool(np.nan_to_num(values).any())

@@ -23,8 +23,7 @@ from .arrays import (
     frames_of,
     named_arrays,
 )
-from .frames import BallHistory, ContactHistory, Frame
-from .inventory import Inventory
+from .frames import BallHistory, ContactHistory, Frame, Inventory
 
 _FRACTIONS = np.float32
 """Of arrays in a frame: seven digits, in half the space. Single numbers, such as works, keep all of theirs."""

@@ -9,7 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from ...engineering.ground_motion.record import GroundRecord
+from ...engineering.ground_motion import GroundRecord
 from ...errors import OutputError
 from ...system.disk import check_no_link, own_folder, part_of, write_whole_text, writing
 from ...system.folder_lock import FolderLock, check_unlocked, writer_in
@@ -25,8 +25,9 @@ from .files import (
     RESULT_FILES,
     SCENARIO_FILE,
     TABLE_FOLDER,
+    check_free,
+    remove_report,
 )
-from .reported import check_free, remove_report
 from .summary import read_summary
 
 _LONGEST_NAME = 60

@@ -19,9 +19,9 @@ from ...errors import OutputError, UnreadableError
 from ...system.disk import is_in_place, writing
 from ...system.reading import MEGABYTE, check_file, csv_cell, csv_rows
 from ..blast.explosion import StepLoads
+from ..results.energy import flies_on_solver_energy
 from ..results.frames import Frame
 from ..results.motion import throw, travel
-from ..results.solver_energy import flies_on_solver_energy
 from .files import BREAKING_LOG, FORCE_LOG
 
 Source = TypeVar("Source")

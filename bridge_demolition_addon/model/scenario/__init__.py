@@ -9,32 +9,28 @@ from ..blast.blast_zones import BlastZone
 from ..blast.charges import Charge
 from ..blast.cuts import MemberCut
 from ..blast.settings import BlastSettings
-from ..changes.removals import Removal
-from ..changes.saw_cuts import SawCut
-from ..changes.tendon_cuts import TendonCut
-from ..changes.weakenings import Weakening
+from ..changes.removals import Removal, Weakening
+from ..changes.saw_cuts import SawCut, TendonCut
 from ..lifts import Lift
 from ..loads.loads import Load
 from ..materials.bar_layers import BarLayer
 from ..materials.materials import Material
 from ..pulls import Pull
-from .arch import Arch
+from .arch import Arch, RigidFrame
 from .ball import Ball, BallCable, BallHit
 from .bodies import Equipment, Ground, GroundSurface, ShardSettings, Support
 from .bridge import Bridge
 from .bridge_parts import Abutments, BoxGirder, Deck, Girders, PierCaps, Piers, Voids
 from .connections import ConnectionSettings
-from .connections_between import ConnectionBetween
 from .contacts import ContactSettings, SurfaceValues
 from .dead_loads import DeadLoad
 from .fracture import Finer, FracturePoint, FractureSettings, MemberFracture
-from .frame import RigidFrame
 from .geometry import Geometry
 from .girders import GirderSpan
 from .jackhammer import Jackhammer
-from .recording import PictureSettings, RecordingSettings
+from .joint_settings import ConnectionBetween
+from .recording import PictureSettings, RecordingSettings, ReportSettings
 from .reinforcement import BarRule, BridgeReinforcement, GeometryReinforcement, RatiosOfMember
-from .reporting import ReportSettings
 from .scenario import Scenario
 from .site import Exclusion, Neighbour, Site, Zone
 from .steelwork import SteelMember, SteelNode, Steelwork

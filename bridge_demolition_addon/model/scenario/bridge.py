@@ -6,11 +6,10 @@ from typing import ClassVar
 
 from ...engineering.arithmetic import cosine, sine
 from ..schema import DENSITY, SIZE, Table, given, key
-from .arch import Arch
+from .arch import Arch, RigidFrame
 from .bearings import BearingOfBridge
 from .bridge_checks import check_bridge
 from .bridge_parts import Abutments, BoxGirder, BridgeBearings, Deck, Girders, PierCaps, Piers, Voids
-from .frame import RigidFrame
 from .reinforcement import BridgeReinforcement
 
 LARGEST_SKEW_DEG = 75.0

@@ -1,18 +1,19 @@
-"""Which shards are connected, how, and what breaks a connection."""
+"""Which shards are connected, how, what breaks a connection, and what it is to the solver."""
 
-from collections.abc import Sequence
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import astuple, dataclass, replace
 from typing import ClassVar, Self
 
-from ...engineering.elasticity.section_stiffness import ELASTIC_MODULI
-from ...engineering.elasticity.steel_bars import USUAL_STEEL, Steel
-from ...engineering.mechanics.joint import TYPES
-from ...engineering.mechanics.strength import MATERIALS, NEWTON_PER_SQUARE_MILLIMETRE
-from ..materials.materials import MODULUS, POISSON, Material
-from ..schema import LARGEST_INTEGER, SHARE, check_exactly_one, key
-from .connection_checks import check_connections
-from .connections_between import OWN_MATERIAL, ConnectionBetween
-from .joint_settings import ELASTIC_TYPES, STEEL_KEYS, STRENGTH_KEYS, JointSettings
+from ...engineering.elasticity.section_stiffness import ELASTIC_MODULI, ElasticModuli
+from ...engineering.elasticity.steel_bars import MODULUS_PA, USUAL_STEEL, Steel
+from ...engineering.mechanics.joint import TYPES, Joint
+from ...engineering.mechanics.strength import MATERIALS, NEWTON_PER_SQUARE_MILLIMETRE, SMEARED, Strength
+from ...errors import ScenarioError
+from ..materials.materials import MODULUS, POISSON, Material, moduli, strengths
+from ..schema import LARGEST_INTEGER, SHARE, check_exactly_one, expected, given, key
+from .joint_settings import ELASTIC_TYPES, OWN_MATERIAL, STEEL_KEYS, STRENGTH_KEYS, ConnectionBetween, JointSettings
 
 LARGE_MODEL = 1000
 """Shards from which on a bridge is large. The report of 2019, whose models have hundreds (section 2.5.2), means its one
@@ -208,7 +209,7 @@ class ConnectionSettings(JointSettings):
         )
 
     @property
-    def tables(self) -> "tuple[ConnectionSettings | ConnectionBetween, ...]":
+    def tables(self) -> tuple[ConnectionSettings | ConnectionBetween, ...]:
         return (self, *self.between)
 
     @property
@@ -230,3 +231,161 @@ class ConnectionSettings(JointSettings):
         """Check that nothing is said of cracks in shards where no layers of bars run through these."""
         if self.cracks_within_shards:
             raise self.unexpected("cracks_within_shards", "false where there is no [[reinforcement]]")
+
+
+_BY_STRESS = 'with stiffness "elastic"; elastic connections break by stress, not by one force'
+
+
+def check_connections(settings: ConnectionSettings) -> None:
+    """Check the values of connections against each other.
+
+    Raises
+    ------
+    ScenarioError
+        Where they do not fit, with the key and what is expected.
+    """
+    if settings.has_strength:
+        check_exactly_one(settings, *STRENGTH_KEYS)
+    for table in settings.tables:
+        _check_material(settings, table)
+        if not isinstance(table, ConnectionBetween) or table.changes_joint:
+            table.check_type(table.type or settings.type)
+    _check_ductility(settings)
+    _check_steel(settings)
+    if settings.warm_up_damping > 0.0 and settings.warm_up_s == 0.0:
+        raise settings.unexpected("warm_up_damping", "0 where connections.warm_up_s is 0")
+    _check_elastic(settings)
+    _check_method(settings, "search_radius_m", "a number above 0 (m)", ("vertex", "centre"))
+    _check_method(settings, "neighbours", "a whole number of at least 1", ("nearest",))
+
+
+def _check_material(settings: ConnectionSettings, table: ConnectionSettings | ConnectionBetween) -> None:
+    """Check that a material is given only where connections have an area."""
+    if table.material is None or settings.method == "face":
+        return
+    wanted = f'method "face" with it, found "{settings.method}"'
+    if table.material not in MATERIALS:
+        wanted += f", and {expected(table.__dataclass_fields__['material'])}"
+    raise table.unexpected("material", wanted)
+
+
+def _check_ductility(settings: ConnectionSettings) -> None:
+    """Check that smeared reinforcement has concrete around it, and an elongation."""
+    if settings.ductile_share == 0.0:
+        return
+    if settings.material is None:
+        raise settings.unexpected("ductile_share", "0 where connections.material is not given")
+    if settings.ductile_elongation_m is None:
+        wanted = "a number above 0 (m) with a connections.ductile_share above 0"
+        raise settings.unexpected("ductile_elongation_m", wanted)
+
+
+def _check_steel(settings: ConnectionSettings) -> None:
+    """Check that the steel is described only where it counts, and yields before it ruptures."""
+    for name in STEEL_KEYS:
+        if getattr(settings, name) is not None and settings.stiffness == "rigid":
+            wanted = 'none but with connections.stiffness "elastic"'
+            raise settings.unexpected(name, wanted)
+    is_given = settings.ductile_rupture_strain is not None
+    rupture = USUAL_STEEL.rupture_strain if settings.ductile_rupture_strain is None else settings.ductile_rupture_strain
+    yield_pa = USUAL_STEEL.yield_pa
+    if settings.ductile_yield_n_mm2 is not None:
+        yield_pa = settings.ductile_yield_n_mm2 * NEWTON_PER_SQUARE_MILLIMETRE
+    if rupture <= yield_pa / MODULUS_PA:
+        wanted = f"less: by 200 000 N/mm² it would be a strain above that at rupture, {rupture:g}"
+        if is_given:
+            wanted = f"more than {yield_pa / MODULUS_PA:.3g}, the strain at which the reinforcement yields"
+        raise settings.unexpected("ductile_rupture_strain" if is_given else "ductile_yield_n_mm2", wanted)
+
+
+def _check_elastic(settings: ConnectionSettings) -> None:
+    """Check that keys of elastic connections go with them, and that none is missing."""
+    if settings.stiffness is None:
+        return
+    if not settings.is_elastic:
+        for table in settings.tables:
+            for name in ("elastic_modulus_n_mm2", "poisson_ratio", "damping_ratio"):
+                if getattr(table, name, None) is not None:
+                    raise table.unexpected(name, 'none where connections.stiffness is "rigid"')
+        return
+    if settings.method != "face":
+        raise settings.unexpected("method", '"face" with stiffness "elastic", which takes the area of shared faces')
+    if settings.material is None and settings.has_strength:
+        raise ScenarioError(f"connections.material is missing: expected it {_BY_STRESS}")
+    for table in settings.tables:
+        kind = table.type or settings.type
+        if kind not in ELASTIC_TYPES and not getattr(table, "none", False):
+            raise table.unexpected("type", f'one of {", ".join(ELASTIC_TYPES)} with stiffness "elastic"')
+        if table is not settings and table.breaking_force_newton is not None:
+            raise ScenarioError(f"{table.table} has a breaking force: expected a material {_BY_STRESS}")
+
+
+def _check_method(settings: ConnectionSettings, name: str, wanted: str, methods: tuple[str, ...]) -> None:
+    is_given, is_needed = getattr(settings, name) is not None, settings.method in methods
+    if is_given != is_needed:
+        raise settings.unexpected(name, f'{wanted if is_needed else "none"} with method "{settings.method}"')
+
+
+def joints_of_connections(
+    settings: ConnectionSettings, materials: Sequence[Material] = (), *, have_bars: bool = False
+) -> tuple[Joint, ...]:
+    """Return the joint of connections that follow no rule, then that of each rule.
+
+    In members that have bars, concrete has no steel that is smeared.
+    """
+    known = {name: strength.times(settings.strength_factor) for name, strength in strengths(materials).items()}
+    _check_materials(settings, known)
+    if have_bars:
+        known |= {name: known[plain] for name, plain in SMEARED.items()}
+    factor = settings.strength_factor
+    own = Joint(
+        settings.type,
+        settings.free or (),
+        settings.springs,
+        _times(factor, settings.breaking_force_newton),
+        known[settings.material] if settings.material else None,
+        _moduli(settings, materials) if settings.is_elastic else None,
+    )
+    return (own, *(_joint_between(own, rule, factor, known, materials) for rule in settings.between))
+
+
+def _check_materials(settings: ConnectionSettings, known: Collection[str]) -> None:
+    for table in settings.tables:
+        if table.material is not None and table.material not in known:
+            raise table.unexpected("material", expected(table.__dataclass_fields__["material"]))
+
+
+def _joint_between(
+    own: Joint,
+    rule: ConnectionBetween,
+    factor: float,
+    known: Mapping[str, Strength],
+    materials: Sequence[Material],
+) -> Joint:
+    kind = rule.type or own.type
+    free, springs = (rule.free or (), rule.springs) if rule.changes_joint else (own.free, own.springs)
+    force, strength = _times(factor, rule.breaking_force_newton), known[rule.material] if rule.material else None
+    if force is None and strength is None:
+        force, strength = own.breaking_force_n, own.strength
+    own_moduli = _moduli(rule, materials, own.moduli) if own.moduli else None
+    return Joint(kind, free, springs, force, strength, own_moduli)
+
+
+def _times(factor: float, force_n: float | None) -> float | None:
+    return None if force_n is None else factor * force_n
+
+
+def _moduli(
+    settings: ConnectionSettings | ConnectionBetween,
+    materials: Sequence[Material],
+    others: ElasticModuli | None = None,
+) -> ElasticModuli:
+    """Return moduli that are given, or else those of a material, or else of the other connections."""
+    young, poisson = settings.elastic_modulus_n_mm2, settings.poisson_ratio
+    if young is not None and poisson is not None:
+        return ElasticModuli(young * NEWTON_PER_SQUARE_MILLIMETRE, poisson)
+    known = moduli(materials, settings.material) if settings.material else others
+    return ElasticModuli(
+        given(known).young_pa if young is None else young * NEWTON_PER_SQUARE_MILLIMETRE,
+        given(known).poisson if poisson is None else poisson,
+    )

@@ -29,7 +29,7 @@ from ...engineering.steelwork.studs import (
 from ...errors import ScenarioError
 from ..schema import ROUNDING, SIZE, Table, given, key
 from .bearings import PINNED, ROCKER
-from .connections_between import GROUND_NAME
+from .joint_settings import GROUND_NAME
 
 GIRDER_KIND, DECK_KIND = "girder", "deck"
 

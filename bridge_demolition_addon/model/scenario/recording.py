@@ -1,9 +1,10 @@
-"""What is recorded in a run, and its pictures."""
+"""What is recorded in a run, its pictures, and how its reports are made."""
 
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import ClassVar
 
+from ...engineering.unit_systems import UnitSystem
 from ...errors import ScenarioError
 from ..schema import POSITION, Table, key
 
@@ -107,3 +108,29 @@ class PictureSettings(Table):
                 raise self.unexpected("camera", '"own", as pictures.camera_m is given')
             if self.camera_m == self.look_at_m:
                 raise self.unexpected("look_at_m", "another position than pictures.camera_m")
+
+
+REPORT_LANGUAGES = ("en", "de", "es", "fr", "zh_hans")
+"""Languages that reports can be in, English first; `report.languages` has a table for each but English."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ReportSettings(Table):
+    """Units and language of reports. Options of the command that makes a report come first."""
+
+    table: ClassVar[str] = "report"
+
+    units: str | None = key(
+        "Units of reports: `metric`, or `imperial` for US customary ones (ft, in, lb, kip, ksi, psi). Without it, "
+        "commands make reports in metric units, and Blender's window in those of its scene. The option --units comes "
+        "first; *Units* over *Make Report* is this key. Files for other programs stay in SI units: tables, logs, "
+        "summary.json, site plans.",
+        default=None,
+        choices=tuple(system.value for system in UnitSystem),
+    )
+    language: str | None = key(
+        "Language of reports. Without it, commands make reports in English, and Blender's window in its own language. "
+        "The option --language comes first; *Language* over *Make Report* is this key.",
+        default=None,
+        choices=REPORT_LANGUAGES,
+    )

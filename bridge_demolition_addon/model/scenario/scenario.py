@@ -8,7 +8,7 @@ from itertools import chain, combinations
 from typing import Any, ClassVar, Literal, NamedTuple
 
 from ...engineering.elasticity.steel_bars import Steel
-from ...engineering.ground_motion.record import GroundRecord
+from ...engineering.ground_motion import GroundRecord
 from ...engineering.mechanics.joint import Joint
 from ...engineering.timing.timeline import Timeline
 from ...errors import Faults, ScenarioError
@@ -18,10 +18,8 @@ from ..blast.charges import Charge
 from ..blast.cuts import MemberCut, check_cuts
 from ..blast.settings import BlastSettings
 from ..changes.change import Change
-from ..changes.removals import Removal
-from ..changes.saw_cuts import SawCut
-from ..changes.tendon_cuts import TendonCut
-from ..changes.weakenings import Weakening
+from ..changes.removals import Removal, Weakening
+from ..changes.saw_cuts import SawCut, TendonCut
 from ..foundations import Foundation
 from ..ground_motion.settings import GroundMotion
 from ..ground_motion.sources import ground_record
@@ -47,19 +45,17 @@ from .ball import Ball
 from .bearings import Bearing
 from .bodies import Equipment, Ground, ShardSettings, Support
 from .bridge import Bridge
-from .bridge_axes import upright_names
-from .connection_joints import joints_of_connections
-from .connections import ConnectionSettings
-from .connections_between import GROUND_NAME
+from .bridge_checks import upright_names
+from .connections import ConnectionSettings, joints_of_connections
 from .contacts import BodyInContact, ContactSettings, SurfaceValues, check_not_both, with_own_values
 from .dead_loads import DeadLoad
 from .fracture import FractureSettings
 from .geometry import Geometry
 from .girders import DECK_KIND, GirderSpan, StudRow, joints_of_deck
 from .jackhammer import Jackhammer
-from .recording import PictureSettings, RecordingSettings
+from .joint_settings import GROUND_NAME
+from .recording import PictureSettings, RecordingSettings, ReportSettings
 from .reinforcement import BarRule, BridgeReinforcement, GeometryReinforcement
-from .reporting import ReportSettings
 from .site import Exclusion, Neighbour, Site, Zone
 from .steelwork import SteelMember, SteelNode, Steelwork
 from .tendons import Tendon, check_tendons

@@ -18,8 +18,8 @@ from ...engineering.steelwork.sections import SteelSection
 from ...errors import Faults, ScenarioError
 from ..schema import SHORTEST_LENGTH_M, SIZE, Table, key, shown
 from .bearings import FIXED, PINNED, ROCKER
-from .connections_between import GROUND_NAME
 from .girders import GirderSpan
+from .joint_settings import GROUND_NAME
 from .trusses import TrussSpan
 
 NODE_KIND = "node"

@@ -9,7 +9,7 @@ from typing import ClassVar
 from ...engineering.elasticity.tendons import MODULUS_PA, RUPTURE_STRAIN
 from ...engineering.mechanics.strength import NEWTON_PER_SQUARE_MILLIMETRE
 from ...errors import ScenarioError
-from ..changes.tendon_cuts import TendonCut
+from ..changes.saw_cuts import TendonCut
 from ..schema import SHORTEST_LENGTH_M, Table, check_exactly_one, key, shown
 from .connections import ConnectionSettings
 

@@ -8,7 +8,7 @@ from ...engineering.steelwork.catalogue import section_named
 from ...errors import ScenarioError
 from ..schema import SIZE, Table, key
 from .bearings import PINNED, ROCKER
-from .connections_between import GROUND_NAME
+from .joint_settings import GROUND_NAME
 
 PRATT, WARREN = "pratt", "warren"
 

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from ...engineering.search.bisection import median_interval
+from ...engineering.search.neyer import median_interval
 from ...engineering.search.probit import LevelOutcomes, fitted, limit
 from ...system.disk import whole_file
 from ...texts import Text

@@ -10,8 +10,7 @@ from ...errors import ScenarioError
 from ...texts import Quantity, Text, Unit
 from ..scenario import Scenario
 from ..study.criteria import check_criteria
-from ..study.file import SEED, Ensemble, read_ensemble_file, variations_of
-from ..study.files import ANSWER_FILE, SEARCH_FILE, TRIALS_FILE
+from ..study.file import ANSWER_FILE, SEARCH_FILE, SEED, TRIALS_FILE, Ensemble, read_ensemble_file, variations_of
 from ..study.keys import ScenarioKey, changed, keys_named
 from ..study.sampled_runs import SampledRun, sampled_run
 from ..study.shown_names import words_and_unit

@@ -15,16 +15,15 @@ from ...engineering.geometry.vectors import AXES
 from ..actions import Affected, Fact, Place, PlannedAction, Point
 from ..as_built import Structure
 from ..blast.blast_zones import BlastZone
-from ..bridge.extent import surface_height
 from ..bridge.member import Member
+from ..bridge.preparation import surface_height
 from ..changes.zone_firings import ZoneFiring
 from ..lifts import Lift, Pick, Sling
 from ..scenario import MemberCut, Scenario
 from ..structure.blast_zones import one_member, placed_zone, placed_zones
 from ..structure.model import Model, build_model
 from ..structure.zone_loads import ZoneFall, ZoneLoad, facts_of_zones, zone_falls
-from .lifts import PlacedLift, placed_lift
-from .structures import model_structure
+from .lifts import PlacedLift, model_structure, placed_lift
 
 _SPHERE_FACETS = 64
 """Round enough: the corners are on the sphere, and its sides 0.1 % of the radius within it."""

@@ -12,9 +12,9 @@ from ...engineering.units import STANDARD_GRAVITY_M_S2, mass_text
 from ..changes.change import Event, schedule
 from ..changes.zone_firings import ZoneFiring
 from ..scenario import Scenario
-from ..sequence.structures import model_structure
+from ..sequence.lifts import model_structure
 from ..structure.blast_zones import zone_firings
-from .changed_bridge import ChangedBridge
+from .lifted import ChangedBridge
 from .standing import StandingBridge
 
 MISFIRES_FILE = "misfires.csv"

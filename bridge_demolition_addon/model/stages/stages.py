@@ -19,15 +19,13 @@ from ..changes.change import Event, schedule
 from ..pulls import Pull
 from ..scenario import DeadLoad, Equipment, Scenario
 from ..schema import given
-from ..sequence.lifts import placed_lifts
-from ..sequence.structures import model_structure
+from ..sequence.lifts import model_structure, placed_lifts
 from ..structure.blast_zones import zone_firings
 from ..structure.cracking import FALLEN_SHARE
 from ..structure.dead_loads import highest_under, lying_load
 from ..structure.model import Model
 from ..structure.section_use import SectionsWithBars
-from .changed_bridge import ChangedBridge, PressedBars
-from .lifted import CraneWork, PartOnHook
+from .lifted import ChangedBridge, CraneWork, PartOnHook, PressedBars
 from .reactions import supports_of
 from .standing import MostUsed, Standing, StandingBridge, most_used_of
 

@@ -14,8 +14,7 @@ from ...engineering.units import STANDARD_GRAVITY_M_S2, mass_text, with_digits
 from ...system.disk import whole_file
 from ...system.reading import csv_cell
 from ..structure.model import Model
-from .changed_bridge import PressedBars
-from .lifted import LIFT_COLUMNS, LIFTS_FILE, hook_cells, lift_rows, lift_sentences
+from .lifted import LIFT_COLUMNS, LIFTS_FILE, PressedBars, hook_cells, lift_rows, lift_sentences
 from .misfires import MISFIRE_COLUMNS, MISFIRES_FILE, Misfire, misfire_row
 from .reactions import SupportPoint, supports_of
 from .stages import Criticality, ReleasedTendon, Stage, reactions_n

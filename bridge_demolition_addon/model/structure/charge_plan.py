@@ -19,8 +19,8 @@ from ...engineering.drilled_charges.neighbours import (
     largest_mass_together_kg,
 )
 from ...engineering.geometry.vectors import AXES, distance
-from ..bridge.extent import room_around
 from ..bridge.member import Member
+from ..bridge.preparation import room_around
 from ..scenario import MemberCut, Neighbour, Scenario
 from ..schema import given
 from ..terrain.built import built_ground

@@ -11,13 +11,12 @@ from typing import TypeVar
 
 import numpy as np
 
-from ...engineering.foundations.footings import SoilSprings
+from ...engineering.foundations import SoilSprings
 from ...engineering.fracture.shared_faces import SharedFaces
 from ...engineering.geometry.mesh import TriangleMesh
 from ...engineering.mechanics.reinforcement import FaceBars
 from ...engineering.structure import connections as connecting
-from ...engineering.structure.connections import Connections
-from ...engineering.structure.face_sections import second_moments
+from ...engineering.structure.connections import Connections, second_moments
 from ..bridge.member import Member
 from ..scenario import Scenario
 from ..scenario.scenario import JointName

@@ -20,7 +20,7 @@ from ...engineering.elasticity.joint_rows import JointFrames, components_first, 
 from ...engineering.elasticity.section_stiffness import in_frames
 from ...engineering.elasticity.steel_bars import USUAL_STEEL
 from ...engineering.elasticity.tendons import TendonForces
-from ...engineering.foundations.footings import Footings
+from ...engineering.foundations import Footings
 from ...engineering.geometry.vectors import product, transformed
 from ...engineering.mechanics.crack_faces import CrackFaces, TornFaces
 from ...engineering.mechanics.joint import Joint

@@ -16,8 +16,7 @@ from ...engineering.geometry.vectors import dot, length, transformed, transforme
 from ...engineering.mechanics.joint import Joint
 from ...engineering.mechanics.reinforcement import FaceBars
 from ...engineering.mechanics.section_forces import section_axes
-from ...engineering.structure.connections import Connections
-from ...engineering.structure.face_sections import triangles_in_faces
+from ...engineering.structure.connections import Connections, triangles_in_faces
 from ..bridge.member import Member
 from ..materials.bar_layers import BarLayer
 from ..reinforcement.design import all_layers

@@ -10,7 +10,7 @@ from ...engineering.structure import connections as connecting
 from ...engineering.structure.connections import Connections
 from ...errors import ScenarioError
 from ..bridge.member import Member
-from ..scenario.connections_between import GROUND_NAME, ConnectionBetween
+from ..scenario.joint_settings import GROUND_NAME, ConnectionBetween
 from ..scenario.scenario import JointName
 from ..schema import given
 from .connection_source import ConnectionRows, ConnectionSource, CutBridge

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from ...engineering.elasticity.section_stiffness import SectionStiffness
-from ...engineering.foundations.footings import SoilSprings
+from ...engineering.foundations import SoilSprings
 from ...engineering.geometry.mesh import TriangleMesh, triangle_areas_and_normals
 from ...engineering.structure.connections import GROUND, Connections
 from ...errors import ScenarioError

@@ -22,8 +22,7 @@ from ...engineering.geometry.own_axes import OwnAxes
 from ...engineering.geometry.vectors import AXES
 from ...engineering.structure.connections import Connections
 from ...errors import ScenarioError
-from ..bridge.member import Member
-from ..bridge.own_axes import is_standing, own_axes
+from ..bridge.member import Member, is_standing, own_axes
 from ..materials.bar_layers import BarLayer, ReinforcedSection
 
 

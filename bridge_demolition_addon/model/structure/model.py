@@ -12,16 +12,15 @@ import numpy as np
 
 from ...engineering.elasticity.section_stiffness import SectionStiffness
 from ...engineering.elasticity.steel_bars import Steel
-from ...engineering.foundations.footings import SoilSprings
+from ...engineering.foundations import SoilSprings
 from ...engineering.geometry.mesh import TriangleMesh
 from ...engineering.geometry.vectors import cross
 from ...engineering.mechanics.reinforcement import FaceBars
 from ...engineering.structure.connections import GROUND, Connections
 from ..actions import CutOfMembers, CutPlane
 from ..blast.settings import BlastSettings
-from ..bridge.extent import ground_half_size
 from ..bridge.member import Member, mean_density
-from ..bridge.preparation import prepared_members
+from ..bridge.preparation import ground_half_size, prepared_members
 from ..materials.bar_layers import BarLayer
 from ..scenario import Geometry, Scenario
 from ..scenario.file import file_digests

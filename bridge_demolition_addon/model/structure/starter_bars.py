@@ -18,8 +18,7 @@ from ...engineering.elasticity.steel_bars import Steel
 from ...engineering.geometry.vectors import AXES, dot
 from ...engineering.reinforced_concrete.least_areas import of_links_m2_m
 from ...engineering.reinforced_concrete.materials import Concrete
-from ..bridge.member import Member
-from ..bridge.own_axes import own_axes
+from ..bridge.member import Member, own_axes
 from ..materials.bar_layers import BarLayer
 from ..reinforcement.concrete_members import is_concrete, names_of_bridge
 from ..scenario import Bridge, Scenario

@@ -19,7 +19,7 @@ from ...engineering.steelwork.resistance import plastic_second_moments, section_
 from ...engineering.structure.connections import GROUND, Connections
 from ..bridge.member import Member, members_named
 from ..scenario.bearings import FIXED, ROCKER, UNYIELDING_MN_M
-from ..scenario.connections_between import GROUND_NAME
+from ..scenario.joint_settings import GROUND_NAME
 from ..scenario.scenario import JointName
 from ..scenario.steelwork import SteelNode, Steelwork, bending_to_axial_ratio_of
 from ..schema import given

@@ -25,7 +25,7 @@ from ...engineering.elasticity.tendons import (
     transmission_length_m,
 )
 from ...engineering.geometry.mesh import volumes_and_centres
-from ...engineering.geometry.paths_through_solids import Passages, passages
+from ...engineering.geometry.solids import Passages, passages
 from ...engineering.geometry.turned_boxes import TurnedBox
 from ...engineering.geometry.vectors import distance, dot, points_along, transformed_back
 from ...engineering.mechanics.joint import Joint

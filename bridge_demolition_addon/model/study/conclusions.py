@@ -2,26 +2,106 @@
 
 They hold where runs are independent, and where their number, the rank and what is asked were fixed beforehand. A run
 that did not finish counts as one of unlimited debris distance that met no criterion. ``report/wording`` has sentences.
+
+A zone that is drawn around runs holds these runs, and says little of others. One that stands in the scenario was fixed
+before any run of that scenario; so how many of these leave it says how likely the next one does.
 """
 
 from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
+from manifold3d import CrossSection
 
+from ...engineering.drilled_charges.fragments import Ranges
+from ...engineering.geometry.plan_areas import signed_area
 from ...engineering.statistics.binomial import lower_limit, upper_limit
-from ...engineering.statistics.order_limits import achieved_confidence, coverage, least_runs, most_support, nth_largest
-from ...engineering.statistics.repetition import repeated_limit
+from ...engineering.statistics.order_limits import (
+    achieved_confidence,
+    coverage,
+    least_runs,
+    most_support,
+    nth_largest,
+    repeated_limit,
+)
 from ...errors import OutputError
 from ...texts import Text
+from ..bridge.preparation import prepared_members
+from ..scenario import Scenario, Zone
+from ..structure.charge_plan import flyrock_of_run
 from .file import Study
-from .fragments import FragmentLimits, fragment_limits
 from .runs_table import REACH, TRUSTED_REACH, RunsTable
+
+HALF, MOST, NEARLY_ALL, FARTHEST = "fragments_50_m", "fragments_99_m", "fragments_99_9_m", "fragments_farthest_m"
+"""Outputs: distances on plan from the middle of its zone that parts of the mass in fragments stay within, of the zone
+whose fragments fly farthest."""
+
+LUNDBORG, MCKENZIE = "lundborg_m", "mckenzie_m"
+"""Outputs: the largest distances by two rules, as if nothing covered the holes."""
+
+
+@dataclass(frozen=True, slots=True)
+class FragmentLimits:
+    """Upper tolerance limits of how far fragments fly, each by itself; infinite where there are too few runs."""
+
+    runs: int
+    quantile: float  # asked beforehand: part of all runs that each limit is for
+    confidence: float  # asked beforehand
+    rank: int  # asked beforehand: which of the largest distances of the runs they are
+    achieved_confidence: float
+    half_m: float  # for the distance that 50 % of the mass stays within
+    most_m: float  # 99 %
+    nearly_all_m: float  # 99.9 %
+    largest_m: float  # for the farthest fragment
+    lundborg_m: float  # the largest of the runs
+    mckenzie_m: float
+
+    @property
+    def are_known(self) -> bool:
+        """Whether there are limits."""
+        return math.isfinite(self.nearly_all_m)
+
+    @property
+    def ranges(self) -> Ranges:
+        """Return them as the ranges of a zone."""
+        return Ranges(self.half_m, self.most_m, self.nearly_all_m, self.largest_m)
+
+
+def fragment_outputs(scenario: Scenario) -> dict[str, float]:
+    """Return the outputs of a run; nothing without blast zones, and 0 where none of them fires."""
+    if not scenario.blast_zones:
+        return {}
+    flown = flyrock_of_run(scenario, prepared_members(scenario).members)
+    sampled = [of.sampled for of in flown]
+    return {
+        HALF: max((ranges.half_m for ranges in sampled), default=0.0),
+        MOST: max((ranges.most_m for ranges in sampled), default=0.0),
+        NEARLY_ALL: max((ranges.nearly_all_m for ranges in sampled), default=0.0),
+        FARTHEST: max((ranges.largest_m for ranges in sampled), default=0.0),
+        LUNDBORG: max((of.lundborg_m for of in flown), default=0.0),
+        MCKENZIE: max((of.mckenzie_m for of in flown), default=0.0),
+    }
+
+
+def fragment_limits(table: RunsTable, quantile: float, confidence: float, rank: int) -> FragmentLimits | None:
+    """Return the limits from the table of all runs of a study; None without blast zones, as in earlier studies."""
+    if NEARLY_ALL not in table.outputs:
+        return None
+    runs = len(table)
+    has_enough = runs >= least_runs(quantile, confidence, rank)
+    limits = [
+        nth_largest(table.largest(name), rank) if has_enough else math.inf
+        for name in (HALF, MOST, NEARLY_ALL, FARTHEST)
+    ]
+    by_rule = [float(np.max(table.output(name)[table.done], initial=0.0)) for name in (LUNDBORG, MCKENZIE)]
+    achieved = achieved_confidence(rank, runs, quantile) if runs >= rank else 0.0
+    return FragmentLimits(runs, quantile, confidence, rank, achieved, *limits, *by_rule)
+
 
 SIMULTANEOUS = (REACH, "largest_throw_m")
 """Outputs whose limits hold together: as many as the fewest runs of a study by default allow."""
@@ -226,3 +306,28 @@ def finite(value: Any) -> Any:
     if isinstance(value, list | tuple):
         return [finite(inner) for inner in value]
     return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+_BEYOND_M2 = 1e-4
+"""Area beyond a zone that counts; outlines are kept to a millimetre."""
+
+
+def zone_area(zone: Zone) -> CrossSection:
+    """Return what a zone covers in plan."""
+    corners = np.array(zone.corners_m, float)
+    return CrossSection([corners if signed_area(corners) > 0.0 else corners[::-1]])
+
+
+def holds(zone: Zone, area: CrossSection) -> bool:
+    """Return whether an area lies within a zone."""
+    return (area - zone_area(zone)).area() <= _BEYOND_M2
+
+
+def proportion_leaving(zone: Zone, swept: Iterable[Sequence[np.ndarray] | None], confidence: float) -> Proportion:
+    """Return how often debris leaves a zone in plan that was fixed before the runs.
+
+    Each run has outlines (k, 2) of all that its debris covered at any time, or None where it did not finish, which
+    counts as one that left the zone.
+    """
+    left = [rings is None or (bool(len(rings)) and not holds(zone, CrossSection(list(rings)))) for rings in swept]
+    return proportion(Text("left the zone {}", zone.name), np.array(left, bool), confidence)

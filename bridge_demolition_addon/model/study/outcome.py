@@ -19,14 +19,13 @@ from ..debris.throws import debris_of
 from ..debris.touchdown import landings, shaking_at
 from ..debris.zones import watch_zone
 from ..results.arrays import Results
-from ..results.collapse import Span, collapse_progress, spans_of
-from ..results.connection_counts import ConnectionCounts
+from ..results.collapse import ConnectionCounts, Span, collapse_progress, spans_of
+from ..results.energy import is_known, throws_of
 from ..results.motion import relative_to_ground, without_removed
-from ..results.solver_energy import is_known, throws_of
 from ..scenario import Scenario
 from ..structure.charge_plan import AtNeighbour, neighbours_of_zones
+from .conclusions import fragment_outputs
 from .criteria import COLLAPSED, Criterion, neighbour_output, span_output, zone_output
-from .fragments import fragment_outputs
 from .runs_table import MOVING, RESTED, TRUSTED_REACH
 
 SUCCESS = "success"

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from ...engineering.geometry.mesh import TriangleMesh
-from ...engineering.terrain.gaps import nearest_known
 from ...engineering.terrain.levelling import Levelled, levelled
+from ...engineering.terrain.raster import nearest_known
 from ...engineering.terrain.recorded import NamedSurface, RecordedGround
 from ...engineering.terrain.surface import Surface
 from ...engineering.terrain.thinning import Grid, thinned
@@ -18,8 +18,7 @@ from ...errors import GeometryError
 from ...texts import Quantity, Text
 from ..actions import Fact
 from ..scenario import Scenario
-from .placed import Terrain, terrain_of
-from .surfaces import BuiltSurface, built_surfaces
+from .placed import BuiltSurface, Terrain, built_surfaces, terrain_of
 
 COARSEST_STEP_M = 0.5
 """Steps of the ground where it is not thinned, at most, where the site allows: columns are some decimetres wide."""

@@ -1,4 +1,4 @@
-"""The program that unpacks a point cloud: see `point_cloud`, which starts it."""
+"""The program that unpacks a point cloud: see `point_files`, which starts it."""
 
 from __future__ import annotations
 

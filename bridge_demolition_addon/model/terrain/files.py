@@ -13,13 +13,10 @@ from ...engineering.terrain.surface import Surface
 from ...errors import GeometryError, ScenarioError, UnreadableError
 from ..mesh_reading import MESH_FILES, from_y_up, read_mesh
 from ..scenario import Ground
-from .ascii_grid import read_ascii_grid
-from .file_heights import FileHeights
+from .file_heights import FileHeights, read_ascii_grid
 from .geotiff import read_geotiff
-from .ifc_surfaces import IFC_FILES, read_ifc_surface
-from .landxml import read_landxml
-from .point_cloud import CLOUD_FILES, read_cloud
-from .point_files import read_points, triangulated
+from .landxml import IFC_FILES, read_ifc_surface, read_landxml
+from .point_files import CLOUD_FILES, read_cloud, read_points, triangulated
 
 GRID_FILES, POINT_FILES, LANDXML_FILES, TIFF_FILES = (".asc",), (".xyz", ".csv", ".txt"), (".xml",), (".tif", ".tiff")
 TERRAIN_FILES = (*MESH_FILES, *GRID_FILES, *POINT_FILES, *LANDXML_FILES, *TIFF_FILES, *CLOUD_FILES, *IFC_FILES)

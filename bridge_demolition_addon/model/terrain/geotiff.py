@@ -1,4 +1,4 @@
-"""GeoTIFFs of heights, by OGC 19-008r4 (*GeoTIFF standard*, 2019)."""
+"""GeoTIFFs of heights, by OGC 19-008r4 (*GeoTIFF standard*, 2019), and the program that reads them."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy as np
 
 from ...engineering.terrain.raster import Raster
 from ...errors import GeometryError, UnreadableError
-from ...system.isolated import isolated
+from ...system.isolated import answer, isolated
 from ...system.reading import MEGABYTE, check_file
 from .file_heights import FileHeights
 
@@ -42,9 +42,7 @@ def read_geotiff(path: Path, no_data: float | None, scale: float) -> FileHeights
         kept = Path(folder) / "heights.npz"
         request = {"path": str(path.absolute()), "kept": str(kept), "no_data": no_data, "scale": scale}
         try:
-            said = isolated(
-                "model.terrain.geotiff_program", request | {"most_heights": MOST_HEIGHTS}, _LIMIT_S, _MOST_MEMORY
-            )
+            said = isolated("model.terrain.geotiff", request | {"most_heights": MOST_HEIGHTS}, _LIMIT_S, _MOST_MEMORY)
         except UnreadableError as error:
             raise GeometryError(str(error)) from error
         with np.load(kept) as arrays:
@@ -150,3 +148,16 @@ def _in_kind(value: float, kind: np.dtype) -> Any:
             return np.asarray(value, float).astype(kind)
     limits = np.iinfo(kind)
     return np.asarray(int(value), kind) if limits.min <= value <= limits.max and value == int(value) else np.nan
+
+
+def main() -> None:
+    """Answer the request: read heights, and leave them in a file."""
+    answer(_read)
+
+
+def _read(request: dict[str, Any]) -> dict[str, Any]:
+    raster, unit_m = heights_in(
+        Path(request["path"]), request["no_data"], request["scale"], int(request["most_heights"])
+    )
+    np.savez(request["kept"], first=raster.first, steps=raster.steps, heights=raster.heights)
+    return {"unit_m": unit_m}

@@ -15,7 +15,7 @@ from matplotlib.figure import FigureBase
 
 from ...engineering.unit_systems import NEAREST, UP, Unit
 from ...engineering.units import name_and_unit, with_digits
-from ...model.scenario.reporting import ReportSettings
+from ...model.scenario.recording import ReportSettings
 from ...model.schema import given
 from ...system.disk import whole_file
 from ...system.reading import csv_cell

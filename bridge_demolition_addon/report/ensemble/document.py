@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 
-from ...model.results.solver_energy import LARGE_SHARE
+from ...model.results.energy import LARGE_SHARE
 from ...model.study.conclusions import Proportion
 from ...model.study.criteria import Criterion
 from ...model.study.file import Study

@@ -14,9 +14,8 @@ from ...engineering.statistics.probability_map import LEVELS
 from ...engineering.units import rounded_up
 from ...model.schema import given
 from ...model.structure.zone_fragments import DOUBT
-from ...model.study.fragments import FragmentLimits
+from ...model.study.conclusions import FragmentLimits, zone_area
 from ...model.study.shown_names import shown
-from ...model.study.verification import zone_area
 from ...texts import Text, Unit, distance_to_keep, joined
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section
 from ..site_plan import areas_of_fragments, cordon_area

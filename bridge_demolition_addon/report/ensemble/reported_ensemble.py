@@ -18,12 +18,10 @@ from ...errors import OutputError
 from ...model.debris.exclusion import widened_around
 from ...model.ensemble.folder import EnsembleRuns, read_ensemble
 from ...model.optimise.conclusions import CANDIDATE, ROUND
-from ...model.study.conclusions import Conclusions, Proportion
+from ...model.study.conclusions import Conclusions, Proportion, holds, proportion_leaving
 from ...model.study.conclusions import conclusions as conclusions_of
-from ...model.study.file import SEED, Ensemble, Study
-from ...model.study.files import AGAIN_FOLDER, RUN_FOLDER
+from ...model.study.file import AGAIN_FOLDER, RUN_FOLDER, SEED, Ensemble, Study
 from ...model.study.runs_table import REACH, RunsTable
-from ...model.study.verification import holds, proportion_leaving
 from ...texts import Text
 from ..run_folder import pictures_in
 

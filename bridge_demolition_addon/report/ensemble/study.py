@@ -14,7 +14,7 @@ from ...engineering.units import rounded_up
 from ...model.scenario import Scenario
 from ...model.structure.charge_plan import ChargePlan
 from ...model.study.conclusions import SimultaneousLimits
-from ...model.study.files import PLAN_DXF, PLAN_GEOJSON
+from ...model.study.file import PLAN_DXF, PLAN_GEOJSON
 from ...model.study.shown_names import shown
 from ...system.progress import Progress
 from ...texts import Text, distance_to_keep

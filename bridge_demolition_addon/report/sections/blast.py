@@ -13,8 +13,7 @@ from ...engineering.blast.vibration import DAMAGE_LIMIT_M_S, FREE_FACE_AVERAGE
 from ...engineering.terrain.recorded import RecordedGround
 from ...engineering.units import with_digits
 from ...model.blast.charges import Charge
-from ...model.blast.damage import THRESHOLDS, ring_radii
-from ...model.blast.receptors import ONE_DELAY_S, PlaceLoads, charges_per_delay, loads_at
+from ...model.blast.receptors import ONE_DELAY_S, THRESHOLDS, PlaceLoads, charges_per_delay, loads_at, ring_radii
 from ...model.scenario import Scenario
 from ...model.schema import given
 from ...texts import Quantity, Text

@@ -10,8 +10,7 @@ from ...charts.histories import energy_history, progress_history, span_heights
 from ...engineering.mechanics.work import FrameWork
 from ...model.results.arrays import Results
 from ...model.results.collapse import REST_SPEED_M_S, Span, collapse_progress, spans_of
-from ...model.results.energy import Energy, energy_of
-from ...model.results.solver_energy import ACCEPTED_SHARE, is_known, made_share
+from ...model.results.energy import ACCEPTED_SHARE, Energy, energy_of, is_known, made_share
 from ...texts import Quantity, Text, joined
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section, facts
 from ..findings import NO_OUTCOME

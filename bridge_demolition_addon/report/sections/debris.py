@@ -13,14 +13,21 @@ from ...engineering.geometry.plan_areas import outlines
 from ...engineering.geometry.vectors import length
 from ...engineering.units import mass_text, rounded_down, rounded_up, volume_text
 from ...model.debris.exclusion import ExclusionZone, exclusion_zone
-from ...model.debris.measured_piles import PILES_NOTE
-from ...model.debris.on_ground import bodies_under_ground, debris_on_surfaces
-from ...model.debris.throws import PERCENTS, Debris, HeightMap, height_map, percentiles_by_mass
+from ...model.debris.throws import (
+    PERCENTS,
+    PILES_NOTE,
+    Debris,
+    HeightMap,
+    bodies_under_ground,
+    debris_on_surfaces,
+    height_map,
+    percentiles_by_mass,
+)
 from ...model.debris.zones import watch_zone
 from ...model.results.arrays import Results
+from ...model.results.energy import throws_of
 from ...model.results.motion import MOVED_M, relative_to_ground, without_removed
 from ...model.results.moving import still_moving_note
-from ...model.results.solver_energy import throws_of
 from ...model.scenario import Zone
 from ...model.schema import given
 from ...model.structure.zone_fragments import NO_SAFETY_DISTANCE

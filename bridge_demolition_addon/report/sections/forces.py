@@ -18,8 +18,13 @@ from ...charts.histories import (
 from ...charts.stress_elevation import stress_elevation
 from ...engineering.geometry.vectors import length
 from ...model.results.arrays import Results
-from ...model.results.bearings import BearingHistory, bearing_histories
-from ...model.results.force_history import breaking_by_kind, contact_forces, most_loaded
+from ...model.results.force_history import (
+    BearingHistory,
+    bearing_histories,
+    breaking_by_kind,
+    contact_forces,
+    most_loaded,
+)
 from ...model.run_folder.logs import LoggedForces
 from ...model.scenario.scenario import bearing_tables
 from ...model.structure.bearing_ranges import ONE_CUT

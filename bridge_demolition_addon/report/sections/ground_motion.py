@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from functools import partial
 
 from ...charts.ground_motion import ground_motion_history, moving_directions, response_spectra
-from ...engineering.ground_motion.record import GroundRecord
+from ...engineering.ground_motion import GroundRecord
 from ...engineering.units import STANDARD_GRAVITY_M_S2
 from ...errors import ScenarioError
 from ...model.debris.touchdown import EXPONENT, LIMITS, TOGETHER_S, VELOCITY_M_S, Shaking, landings, reached, shaking_at

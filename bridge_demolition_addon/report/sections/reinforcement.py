@@ -24,7 +24,7 @@ from ...model.reinforcement.concrete_members import plain_concrete_text
 from ...model.reinforcement.design import bar_schedule
 from ...model.reinforcement.schedule import Schedule, ScheduledBars, ScheduledLinks, named_text, steel_facts
 from ...model.results.arrays import Results
-from ...model.results.bar_extremes import largest_use_text
+from ...model.results.extremes import largest_use_text
 from ...model.scenario import BridgeReinforcement, Scenario
 from ...model.scenario.scenario import rules_of_bars
 from ...texts import Quantity, Text, joined

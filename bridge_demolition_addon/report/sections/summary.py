@@ -12,11 +12,10 @@ from ...model.debris.footprint import bodies_that_moved, footprint, reaches_on_t
 from ...model.debris.throws import Debris
 from ...model.results.arrays import Results
 from ...model.results.collapse import Span, spans_of
-from ...model.results.creep import creep_summary, creep_text
 from ...model.results.motion import MOVED_M, relative_to_ground, travel, without_removed
-from ...model.results.moving import still_moving_note
+from ...model.results.moving import creep_summary, creep_text, still_moving_note
 from ...model.scenario import Scenario
-from ...model.sequence.undisturbed import asleep_text
+from ...model.sequence.ending import asleep_text
 from ...model.stages.stability import stability_texts
 from ...texts import Quantity, Text, joined
 from ..document.blocks import Block, Paragraph, Photo, Picture, facts

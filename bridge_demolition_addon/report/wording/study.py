@@ -7,11 +7,10 @@ from collections.abc import Iterator, Sequence
 
 from ...engineering.statistics.order_limits import achieved_confidence, least_runs
 from ...engineering.units import rounded_down, rounded_up
-from ...model.debris.measured_piles import PILES_NOTE
+from ...model.debris.throws import PILES_NOTE
 from ...model.sequence.rest import FASTEST
-from ...model.study.conclusions import Conclusions, DebrisLimit, DoubtfulThrows, Proportion
+from ...model.study.conclusions import Conclusions, DebrisLimit, DoubtfulThrows, FragmentLimits, Proportion
 from ...model.study.file import Ensemble, Study
-from ...model.study.fragments import FragmentLimits
 from ...model.study.settings import StudySettings
 from ...texts import DOWN, Quantity, Text, distance_to_keep, joined
 from .numbers import listed, ordinal, percent, percent_down, percent_up

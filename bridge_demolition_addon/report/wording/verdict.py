@@ -10,9 +10,8 @@ from ...model.scenario import Scenario
 from ...model.schema import given
 from ...model.structure.charge_plan import ChargePlan, zone_name
 from ...model.structure.zone_fragments import NO_SAFETY_DISTANCE
-from ...model.study.conclusions import DebrisLimit
+from ...model.study.conclusions import DebrisLimit, FragmentLimits
 from ...model.study.criteria import KINDS
-from ...model.study.fragments import FragmentLimits
 from ...texts import Text, distance_to_keep, joined
 from .numbers import listed, percent
 

@@ -12,7 +12,7 @@ import numpy as np
 from ...engineering.elasticity.bearings import PadSprings
 from ...engineering.elasticity.section_stiffness import SectionStiffness
 from ...engineering.elasticity.tendons import TendonPassages, TendonSteel
-from ...engineering.foundations.footings import SoilSprings
+from ...engineering.foundations import SoilSprings
 from ...errors import SimulationError
 from ...model.scenario.kept import values_text
 from ...model.structure.tendons import ModelTendons

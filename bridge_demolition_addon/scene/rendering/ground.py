@@ -10,8 +10,7 @@ import numpy as np
 from mathutils import Vector
 
 from ...engineering.geometry.mesh import TriangleMesh
-from ...engineering.geometry.rotations import turn_in_plane
-from ...engineering.geometry.vectors import transformed
+from ...engineering.geometry.vectors import transformed, turn_in_plane
 from ...engineering.terrain.recorded import NamedSurface, RecordedGround
 from ...engineering.terrain.surface import Surface
 from ...errors import OutputError

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
-from ...engineering.ground_motion.record import GroundRecord, integrated
+from ...engineering.ground_motion import GroundRecord, integrated
 from ...engineering.timing.timeline import Timeline
 from ...errors import SimulationError
 from ..bodies import Kind, bodies_of, kind_of

@@ -5,9 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from ...engineering.elasticity.crack_state import FrameCracks
-from ...model.results.bar_extremes import BarExtremes, BarsOfRun, members_of
-from ...model.results.frames import Frame
-from ...model.results.inventory import Inventory
+from ...model.results.extremes import BarExtremes, BarsOfRun, members_of
+from ...model.results.frames import Frame, Inventory
 
 _AT_WORK = 0.01
 """Part of their yield force from which on bars of a crack are logged: a deck has hundreds that hardly open."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...engineering.mechanics.bearing_loads import BearingLoads
-from ...model.results.bearing_extremes import BearingExtreme, BearingExtremes
+from ...model.results.extremes import BearingExtreme, BearingExtremes
 from ...model.results.frames import Frame
 from ...model.run_folder.logs import FrameBearings
 from ...scene.connections.elasticity import NamedBearings

@@ -34,11 +34,11 @@ from ...engineering.elasticity.section_stiffness import SectionStiffness, in_fra
 from ...engineering.elasticity.structure import ElasticStep, ElasticStructure, StepInput
 from ...engineering.elasticity.substep import Places
 from ...engineering.elasticity.tendons import TendonForces
-from ...engineering.foundations.footings import Footings, SoilSprings
+from ...engineering.foundations import Footings, SoilSprings
 from ...engineering.mechanics.crack_faces import CrackFaces, TornFaces
 from ...engineering.mechanics.reinforcement import FaceBars
 from ...engineering.mechanics.section_forces import section_axes
-from ...model.results.inventory import Inventory
+from ...model.results.frames import Inventory
 from ...model.schema import given
 from ...model.structure.tendons import ModelTendons
 from ...scene.connections.constraints import Breaking

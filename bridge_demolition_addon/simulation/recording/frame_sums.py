@@ -21,8 +21,7 @@ from ...engineering.elasticity.crack_state import CrackAccumulator, FrameCracks
 from ...engineering.mechanics.bearing_loads import BearingAccumulator, BearingLoads
 from ...engineering.mechanics.frame_loads import FrameLoads, LoadAccumulator, SubstepLoads
 from ...engineering.mechanics.work import FrameWork, Motion, PairImpulses, WorkAccumulator
-from ...model.results.frames import BallHistory
-from ...model.results.inventory import Inventory
+from ...model.results.frames import BallHistory, Inventory
 from ...model.schema import given
 from .breaking import Breaks
 from .elastic_connections import ElasticEnergy

@@ -6,7 +6,7 @@ import numpy as np
 
 from ...bullet.constraint_rows import ConstraintRows
 from ...engineering.elasticity.bearings import Bearings
-from ...engineering.foundations.footings import Footings
+from ...engineering.foundations import Footings
 
 
 class LiftingConstraints:

@@ -13,8 +13,7 @@ from ...engineering.elasticity.crack_state import FrameCracks
 from ...engineering.geometry.vectors import dot
 from ...errors import OutputError, SimulationError
 from ...model.blast.explosion import StepLoads
-from ...model.results.frames import Frame
-from ...model.results.inventory import Inventory
+from ...model.results.frames import Frame, Inventory
 from ...model.run_folder.files import BAR_LOG, BEARING_LOG, BREAKING_LOG, DEBRIS_LOG, EXPLOSION_LOG, FORCE_LOG
 from ...model.run_folder.logs import (
     BAR_TABLE,

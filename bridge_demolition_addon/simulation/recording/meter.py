@@ -10,12 +10,11 @@ import numpy as np
 from ...bullet.contacts import Contacts
 from ...bullet.snapshots import BodyHistory, Snapshot
 from ...bullet.world import BulletWorld
-from ...engineering.geometry.rotations import axes_in_bodies, carried_axes
-from ...engineering.geometry.vectors import transformed, transformed_back
+from ...engineering.geometry.vectors import axes_in_bodies, carried_axes, transformed, transformed_back
 from ...engineering.mechanics.carried_sections import CarriedSections
 from ...engineering.mechanics.frame_loads import Moment, SubstepLoads
 from ...engineering.mechanics.section_forces import SectionForces, section_axes, section_forces
-from ...model.results.inventory import Inventory
+from ...model.results.frames import Inventory
 from .elastic_connections import ElasticConnections, ElasticEnergy
 
 

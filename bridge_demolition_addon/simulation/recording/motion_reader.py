@@ -9,13 +9,11 @@ from typing import Any
 import bpy
 import numpy as np
 
-from ...engineering.geometry.rotations import rotation_vectors
-from ...engineering.geometry.vectors import length
+from ...engineering.geometry.vectors import length, rotation_vectors
 from ...engineering.mechanics.frame_loads import FrameLoads, LoadAccumulator
 from ...engineering.mechanics.work import FrameWork
 from ...errors import CoreError, LayoutError, SimulationError
-from ...model.results.frames import Frame
-from ...model.results.inventory import Inventory
+from ...model.results.frames import Frame, Inventory
 from ...scene.run_setup import RunSetup
 from ...scene.world import time_step_at
 

@@ -9,9 +9,8 @@ import numpy as np
 
 from ...errors import SimulationError
 from ...model.results.arrays import Results
-from ...model.results.connection_counts import ConnectionCounts
-from ...model.results.frames import BallHistory, ContactHistory, Frame
-from ...model.results.inventory import Inventory
+from ...model.results.collapse import ConnectionCounts
+from ...model.results.frames import BallHistory, ContactHistory, Frame, Inventory
 from ...model.results.stream import FrameStream
 from ...model.schema import given
 

@@ -15,10 +15,8 @@ from ...bullet.time_control import time_stands_still
 from ...bullet.world import BulletWorld, WorldState
 from ...engineering.core.library import missing_core
 from ...errors import CoreError, LayoutError, NotFiniteError, OutputError, SimulationError
-from ...model.results.bar_extremes import BarsOfRun
-from ...model.results.bearing_extremes import BearingExtreme
-from ...model.results.frames import BallHistory, ContactHistory, Frame
-from ...model.results.inventory import Inventory
+from ...model.results.extremes import BarsOfRun, BearingExtreme
+from ...model.results.frames import BallHistory, ContactHistory, Frame, Inventory
 from ...model.schema import given
 from ...scene.as_built import build_of, changed_bodies, check_start
 from ...scene.bodies import bodies_of

@@ -14,7 +14,7 @@ from ...bullet.body_motion import BodyMotion, BodyMotionReader
 from ...engineering.elasticity.joint_rows import components_last
 from ...engineering.geometry.hulls import ConvexBody, convex_body, depth_m
 from ...engineering.mechanics.reinforcement import FaceBars
-from ...model.results.inventory import Inventory
+from ...model.results.frames import Inventory
 
 _USUAL_DEPTH_M = 0.02
 """Depth up to which bodies meet at once. Contacts lie as deep in each other, as each body goes by up to 1 cm in a

@@ -17,7 +17,7 @@ from ...display.colour_scale import colours
 from ...display.contours import ContourFrame, ContourSettings, colour_bar
 from ...display.force_arrows import arrows, body_forces, connection_forces, contact_forces
 from ...model.blast.charges import Charge
-from ...model.blast.damage import THRESHOLDS, ring_radii
+from ...model.blast.receptors import THRESHOLDS, ring_radii
 from ...scene.blast.charges import blast_of, charges_of
 from ...simulation.blender_events import contours_of, shown_results
 from ..languages.words import translated

@@ -9,7 +9,7 @@ from ...display.colour_scale import ColourMap
 from ...display.contour_quantities import ContourQuantity
 from ...display.contours import ContourSettings, RangeKind
 from ...errors import DemolitionError
-from ...model.blast.damage import THRESHOLDS
+from ...model.blast.receptors import THRESHOLDS
 from ...scene.rendering.body_colours import SHADED_LIGHT
 from ...simulation.blender_events import contours_of, shown_results
 from ...simulation.display.film import FilmKind

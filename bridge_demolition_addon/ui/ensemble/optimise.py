@@ -6,7 +6,7 @@ import bpy
 
 from ...model.optimise.file import Optimisation, optimisation_of, read_optimisation
 from ...model.optimise.settings import OptimiseSettings
-from ...model.study.files import TRADEOFF_PICTURE
+from ...model.study.file import TRADEOFF_PICTURE
 from ...report.wording.optimise import optimise_sentences
 from ...studies.proposals import has_optuna
 from ...studies.session import EnsembleSession

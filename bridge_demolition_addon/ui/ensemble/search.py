@@ -7,7 +7,7 @@ import bpy
 from ...errors import ScenarioError
 from ...model.search.file import Search, read_search, search_of
 from ...model.search.settings import SearchSettings
-from ...model.study.files import CURVE_PICTURE
+from ...model.study.file import CURVE_PICTURE
 from ...report.wording.search import search_sentences
 from ...studies.session import EnsembleSession
 from ..scenario.values import scenario_of

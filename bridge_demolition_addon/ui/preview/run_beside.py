@@ -17,7 +17,7 @@ from ...display.preview_outcome import PreviewOutcome
 from ...errors import DemolitionError, text_of
 from ...model.scenario import Scenario
 from ...model.scenario.file import scenario_text
-from ...model.study.preview_trust import ALIKE_PERCENT, LEAST_THROW, MOST_THROW
+from ...model.study.preview_scenario import ALIKE_PERCENT, LEAST_THROW, MOST_THROW
 from ...simulation.blender_events import running_recording
 from ...studies.preview_process import Preview, PreviewProcess
 from ...studies.preview_program import preview_program_command

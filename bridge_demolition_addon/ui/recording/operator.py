@@ -8,7 +8,7 @@ import bpy
 from bpy.props import BoolProperty
 
 from ...errors import DemolitionError, OutputError, SimulationError
-from ...model.results.creep import creep_text
+from ...model.results.moving import creep_text
 from ...model.run_folder.files import PICTURES
 from ...model.run_folder.folder import check_folder, keep_scenario, lock_in_place, prepare_folder, withdraw_folder
 from ...model.run_folder.summary import RunSummary

@@ -15,8 +15,8 @@ import bpy
 from ...engineering.units import kilonewtons
 from ...errors import DemolitionError, OutputError, UnreadableError
 from ...model.results.arrays import Results
-from ...model.results.bar_extremes import bars_text, largest_use_text
-from ...model.results.connection_counts import ConnectionCounts
+from ...model.results.collapse import ConnectionCounts
+from ...model.results.extremes import bars_text, largest_use_text
 from ...model.run_folder.files import SUMMARY_FILE
 from ...model.run_folder.summary import RunSummary, read_summary
 from ...model.sequence.ending import doubts_of_run

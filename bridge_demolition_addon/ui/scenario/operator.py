@@ -9,7 +9,7 @@ from ...model.scenario import Scenario
 from ...model.scenario.file import read_scenario, scenario_text
 from ...model.sequence.checked_model import checked_model
 from ...model.sequence.lifts import pick_warnings
-from ...model.stages.stability_by_statics import stability_of
+from ...model.stages.stability import stability_of
 from ...scene.as_built import keep_as_built, keep_stability
 from ...scene.bodies import lacks_ground
 from ...scene.demolition import build_demolition, check_replaceable

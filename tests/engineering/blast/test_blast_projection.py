@@ -9,8 +9,7 @@ from reference import blast as reference
 
 from bridge_demolition_addon.engineering.blast.exposure import UPWARDS, lines_of_blast, projected_areas
 from bridge_demolition_addon.engineering.geometry.hulls import convex_hulls
-from bridge_demolition_addon.engineering.geometry.rotations import rotated
-from bridge_demolition_addon.engineering.geometry.vectors import unit
+from bridge_demolition_addon.engineering.geometry.vectors import rotated, unit
 from bridge_demolition_addon.errors import GeometryError
 
 CUBE = np.array([[x, y, z] for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)])

@@ -8,7 +8,7 @@ from bridge_demolition_addon.engineering.elasticity.equations import spring_forc
 from bridge_demolition_addon.engineering.elasticity.joint_forces import put_loads, stored_energies, velocities_alone
 from bridge_demolition_addon.engineering.elasticity.joint_rows import JointFrames, joint_positions
 from bridge_demolition_addon.engineering.elasticity.substep import Frames, Places, deformations
-from bridge_demolition_addon.engineering.geometry.rotations import rotated
+from bridge_demolition_addon.engineering.geometry.vectors import rotated
 
 CONNECTIONS, BODIES = 300, 90
 

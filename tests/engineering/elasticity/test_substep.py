@@ -23,7 +23,7 @@ from bridge_demolition_addon.engineering.elasticity.springs import SpringPositio
 from bridge_demolition_addon.engineering.elasticity.steel_bars import Bars, Steel
 from bridge_demolition_addon.engineering.elasticity.structure import ElasticStructure, StepInput
 from bridge_demolition_addon.engineering.elasticity.substep import CRACKS, SPRINGS, Frames, Places
-from bridge_demolition_addon.engineering.geometry.rotations import rotated
+from bridge_demolition_addon.engineering.geometry.vectors import rotated
 from bridge_demolition_addon.errors import NotFiniteError
 
 BODIES, GAPS = 9, 2000

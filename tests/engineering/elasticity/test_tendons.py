@@ -11,7 +11,7 @@ from bridge_demolition_addon.engineering.elasticity.tendons import (
     TendonSteel,
     transmission_length_m,
 )
-from bridge_demolition_addon.engineering.geometry.rotations import rotated
+from bridge_demolition_addon.engineering.geometry.vectors import rotated
 
 FORCE_N, AREA_M2, LENGTH_M, TRANSMISSION_M = 1.5e6, 1.5e-3, 20.0, 1.0
 WHOLE_J = FORCE_N**2 * LENGTH_M / (2.0 * 195e9 * AREA_M2)

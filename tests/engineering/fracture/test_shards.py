@@ -13,7 +13,7 @@ from bridge_demolition_addon.engineering.fracture.seeds import random_points
 from bridge_demolition_addon.engineering.fracture.shards import Fracture, fracture, voronoi_cells
 from bridge_demolition_addon.engineering.fracture.shared_faces import overlaps, touching_faces
 from bridge_demolition_addon.engineering.geometry.mesh import TriangleMesh, joined_meshes, volumes_and_centres
-from bridge_demolition_addon.engineering.geometry.seams import sewn
+from bridge_demolition_addon.engineering.geometry.repair import sewn
 from bridge_demolition_addon.engineering.geometry.solids import (
     bodies,
     box,

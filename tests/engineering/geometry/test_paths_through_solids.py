@@ -6,7 +6,7 @@ import pytest
 import trimesh
 
 from bridge_demolition_addon.engineering.geometry.mesh import TriangleMesh
-from bridge_demolition_addon.engineering.geometry.paths_through_solids import passages
+from bridge_demolition_addon.engineering.geometry.solids import passages
 
 
 def box(lowest, highest):

@@ -5,8 +5,7 @@ import numpy as np
 import pytest
 from manifold3d import CrossSection
 
-from bridge_demolition_addon.engineering.geometry.plan_areas import outlines, united
-from bridge_demolition_addon.engineering.geometry.plan_cells import PlanCells
+from bridge_demolition_addon.engineering.geometry.plan_areas import PlanCells, outlines, united
 
 RING = CrossSection.square((10.0, 10.0)) - CrossSection.square((5.0, 3.0)).translate((2.0, 4.0))
 

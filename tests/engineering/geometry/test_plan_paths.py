@@ -11,7 +11,7 @@ from bridge_demolition_addon.engineering.geometry.plan_areas import (
     ends_of_straight_parts,
     path_of_corners,
 )
-from bridge_demolition_addon.engineering.geometry.rotations import rotated
+from bridge_demolition_addon.engineering.geometry.vectors import rotated
 
 OFF_M = 0.05
 

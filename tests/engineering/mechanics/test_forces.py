@@ -4,7 +4,7 @@
 import numpy as np
 import pytest
 
-from bridge_demolition_addon.engineering.geometry.rotations import carried_points
+from bridge_demolition_addon.engineering.geometry.vectors import carried_points
 from bridge_demolition_addon.engineering.mechanics.carried_sections import CarriedSections
 from bridge_demolition_addon.engineering.mechanics.forces import PairSums
 

@@ -23,8 +23,8 @@ from bridge_demolition_addon.engineering.structure.connections import (
     foundations,
     joined,
     neighbours_by_face,
+    second_moments,
 )
-from bridge_demolition_addon.engineering.structure.face_sections import second_moments
 from bridge_demolition_addon.model.bridge.member import Member
 from bridge_demolition_addon.model.structure.equilibrium import at_rest, box_inertia
 from bridge_demolition_addon.model.structure.stiffness import CutMembers, connection_stiffness

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from reference import overloads as reference
 
-from bridge_demolition_addon.engineering.geometry.rotations import rotated
+from bridge_demolition_addon.engineering.geometry.vectors import rotated
 from bridge_demolition_addon.engineering.mechanics.carried_sections import CarriedSections
 from bridge_demolition_addon.engineering.mechanics.overloads import Overloads
 from bridge_demolition_addon.engineering.mechanics.section_cuts import ConnectedFaces, ConnectionLoads, worst_around

@@ -4,7 +4,7 @@
 import numpy as np
 import pytest
 
-from bridge_demolition_addon.engineering.geometry.rotations import axes_in_bodies, carried_axes
+from bridge_demolition_addon.engineering.geometry.vectors import axes_in_bodies, carried_axes
 from bridge_demolition_addon.engineering.mechanics.section_forces import section_axes, section_forces
 
 

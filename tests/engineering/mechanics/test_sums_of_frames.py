@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 from reference import frames as reference
 
-from bridge_demolition_addon.engineering.geometry.rotations import rotated
-from bridge_demolition_addon.engineering.geometry.vectors import as_vectors
+from bridge_demolition_addon.engineering.geometry.vectors import as_vectors, rotated
 from bridge_demolition_addon.engineering.mechanics.frame_loads import LoadAccumulator, SubstepLoads
 from bridge_demolition_addon.engineering.mechanics.stress import average_stress
 from bridge_demolition_addon.engineering.mechanics.work import PairImpulses, shared_work, works_on_bodies

@@ -6,8 +6,7 @@ import pytest
 from scipy.special import ndtr, ndtri
 from support.long_cases import long_but
 
-from bridge_demolition_addon.engineering.search.bisection import median_interval
-from bridge_demolition_addon.engineering.search.neyer import NeyerTest, most_informative
+from bridge_demolition_addon.engineering.search.neyer import NeyerTest, median_interval, most_informative
 from bridge_demolition_addon.engineering.search.probit import LevelOutcomes, SuccessCurve, fitted, limit
 
 SEARCHES = 60

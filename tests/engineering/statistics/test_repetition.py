@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 from scipy.stats import nhypergeom
 
-from bridge_demolition_addon.engineering.statistics.order_limits import nth_largest
-from bridge_demolition_addon.engineering.statistics.repetition import chances_above, repeated_limit
+from bridge_demolition_addon.engineering.statistics.order_limits import chances_above, nth_largest, repeated_limit
 
 pytestmark = pytest.mark.slow
 

@@ -7,7 +7,7 @@ import pytest
 from bridge_demolition_addon.engineering.fracture.shards import fracture, voronoi_cells
 from bridge_demolition_addon.engineering.fracture.shared_faces import touching_faces
 from bridge_demolition_addon.engineering.geometry.solids import box
-from bridge_demolition_addon.engineering.structure.face_sections import second_moments
+from bridge_demolition_addon.engineering.structure.connections import second_moments
 
 
 def moments_of(shards, faces):

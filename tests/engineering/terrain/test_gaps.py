@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from scipy.ndimage import distance_transform_edt
 
-from bridge_demolition_addon.engineering.terrain.gaps import nearest_known
+from bridge_demolition_addon.engineering.terrain.raster import nearest_known
 
 
 @pytest.mark.parametrize("shape", [(1, 1), (1, 9), (9, 1), (33, 33), (40, 65), (64, 17)])

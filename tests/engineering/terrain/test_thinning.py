@@ -6,7 +6,7 @@ import pytest
 
 from bridge_demolition_addon.engineering.geometry.mesh import triangle_areas_and_normals
 from bridge_demolition_addon.engineering.geometry.vectors import cross_2d
-from bridge_demolition_addon.engineering.terrain.contour_lines import contour_lines
+from bridge_demolition_addon.engineering.terrain.raster import contour_lines
 from bridge_demolition_addon.engineering.terrain.surface import Surface
 from bridge_demolition_addon.engineering.terrain.thinning import Grid, thinned
 

@@ -13,7 +13,7 @@ from bridge_demolition_addon.engineering.blast.pulses import BlastModel, blast_w
 from bridge_demolition_addon.engineering.blast.wave import Burst
 from bridge_demolition_addon.errors import BlastError
 from bridge_demolition_addon.model.blast.charges import Charge
-from bridge_demolition_addon.model.blast.damage import THRESHOLDS, Threshold, ring_radii
+from bridge_demolition_addon.model.blast.receptors import THRESHOLDS, Threshold, ring_radii
 
 MODELS = [(model, burst) for model in BlastModel for burst in Burst]
 

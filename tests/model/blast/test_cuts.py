@@ -8,10 +8,10 @@ from support.drilled_columns import ZONE, column_model, column_scenario
 
 from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.changes.change import schedule
-from bridge_demolition_addon.model.optimise.space import total_charge_kg
+from bridge_demolition_addon.model.optimise.file import total_charge_kg
 from bridge_demolition_addon.model.scenario import MemberCut
 from bridge_demolition_addon.model.sequence.checked_model import check_actions
-from bridge_demolition_addon.model.sequence.structures import model_structure
+from bridge_demolition_addon.model.sequence.lifts import model_structure
 from bridge_demolition_addon.model.study.file import variations_of
 
 CUT = MemberCut(member="column", position_m=3.0, mass_kg=2.0, delay_ms=100.0)

@@ -16,10 +16,9 @@ from bridge_demolition_addon.cli.main import main
 from bridge_demolition_addon.engineering.geometry.mesh import TriangleMesh, triangle_areas_and_normals
 from bridge_demolition_addon.engineering.geometry.solids import box, from_manifold, union
 from bridge_demolition_addon.errors import GeometryError, ScenarioError
-from bridge_demolition_addon.model.bridge.extent import extent, ground_half_size, surface_height
 from bridge_demolition_addon.model.bridge.member import Member
 from bridge_demolition_addon.model.bridge.mesh_files import geometry_members, placed_mesh
-from bridge_demolition_addon.model.bridge.preparation import prepared_members
+from bridge_demolition_addon.model.bridge.preparation import extent, ground_half_size, prepared_members, surface_height
 from bridge_demolition_addon.model.scenario import Ball, Geometry, Scenario
 from bridge_demolition_addon.model.scenario.file import read_scenario, scenario_from_text, scenario_text
 from bridge_demolition_addon.model.structure.model import build_model

@@ -7,7 +7,7 @@ import pytest
 from bridge_demolition_addon.model.changes.change import schedule
 from bridge_demolition_addon.model.scenario.file import scenario_from_text
 from bridge_demolition_addon.model.sequence.checked_model import checked_model
-from bridge_demolition_addon.model.sequence.structures import model_structure
+from bridge_demolition_addon.model.sequence.lifts import model_structure
 from bridge_demolition_addon.model.stages.stages import stages_of
 from bridge_demolition_addon.model.stages.standing import StandingBridge
 from bridge_demolition_addon.model.stages.tables import stage_row, stage_sentences

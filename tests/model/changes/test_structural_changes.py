@@ -12,7 +12,7 @@ from bridge_demolition_addon.model.as_built import Structure
 from bridge_demolition_addon.model.changes.change import schedule
 from bridge_demolition_addon.model.scenario import Removal, SawCut, Support, Weakening
 from bridge_demolition_addon.model.scenario.file import scenario_from_text, scenario_text
-from bridge_demolition_addon.model.sequence.structures import model_structure
+from bridge_demolition_addon.model.sequence.lifts import model_structure
 from bridge_demolition_addon.model.structure.model import build_model
 
 # Two piers of two blocks each, 10 m apart, with a deck of one block on top; the last body is the ground.

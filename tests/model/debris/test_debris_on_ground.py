@@ -8,12 +8,11 @@ import pytest
 from support.moving_boxes import moving_boxes
 
 from bridge_demolition_addon.engineering.geometry.solids import box
-from bridge_demolition_addon.model.debris.on_ground import bodies_under_ground, debris_on_surfaces
-from bridge_demolition_addon.model.debris.throws import debris_of, height_map
+from bridge_demolition_addon.model.debris.throws import bodies_under_ground, debris_of, debris_on_surfaces, height_map
 from bridge_demolition_addon.model.results.arrays import Results
 from bridge_demolition_addon.model.results.checks import check_arrays
 from bridge_demolition_addon.model.results.collapse import collapse_progress, spans_of
-from bridge_demolition_addon.model.results.solver_energy import throws_of
+from bridge_demolition_addon.model.results.energy import throws_of
 
 SLOPE = 0.5
 """The ground falls by 1 in 2 along x, and is at height 10 where x is 0."""

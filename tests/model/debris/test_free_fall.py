@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from support.sample_results import hanging_chain
 
-from bridge_demolition_addon.model.debris.free_fall import falling, landed
+from bridge_demolition_addon.model.debris.footprint import falling, landed
 
 LOWER = 2
 """Its centre ends 2 m above the ground and it is 4 m high, so that the tests lift it."""

@@ -6,7 +6,7 @@ import json
 import pytest
 from support.checkout import ROOT
 
-from bridge_demolition_addon.model.debris.measured_piles import HEIGHT, RUNOUT
+from bridge_demolition_addon.model.debris.throws import HEIGHT, RUNOUT
 
 CASE = ROOT / "docs" / "data" / "validation" / "collapsing_column.json"
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from support.checkout import EXAMPLES, REPORT_2019
 
-from bridge_demolition_addon.engineering.ground_motion.record import corrected, integrated
+from bridge_demolition_addon.engineering.ground_motion import corrected, integrated
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.ground_motion.record_files import read_record, record_text

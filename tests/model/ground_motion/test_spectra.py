@@ -6,9 +6,8 @@ import pytest
 from scipy.signal import step
 
 from bridge_demolition_addon.errors import ScenarioError
-from bridge_demolition_addon.model.ground_motion.response_spectrum import design_spectrum, response_spectrum
 from bridge_demolition_addon.model.ground_motion.settings import DesignSpectrum, GroundMotion
-from bridge_demolition_addon.model.ground_motion.sources import ground_record
+from bridge_demolition_addon.model.ground_motion.sources import design_spectrum, ground_record, response_spectrum
 
 pytestmark = pytest.mark.slow
 

@@ -7,9 +7,8 @@ import pytest
 from support.drilled_columns import ZONE, column_scenario
 
 from bridge_demolition_addon.errors import ScenarioError
-from bridge_demolition_addon.model.optimise.file import optimisation_of
+from bridge_demolition_addon.model.optimise.file import optimisation_of, total_charge_kg
 from bridge_demolition_addon.model.optimise.settings import ChosenOption, ChosenQuantity, OptimiseSettings
-from bridge_demolition_addon.model.optimise.space import total_charge_kg
 from bridge_demolition_addon.model.study.criteria import Criterion
 from bridge_demolition_addon.model.study.keys import changed
 

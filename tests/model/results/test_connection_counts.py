@@ -7,7 +7,7 @@ from support.sample_results import hanging_chain
 
 from bridge_demolition_addon.engineering.elasticity.crack_state import CrackAccumulator, CrackState
 from bridge_demolition_addon.model.results.arrays import Results
-from bridge_demolition_addon.model.results.connection_counts import ConnectionCounts
+from bridge_demolition_addon.model.results.collapse import ConnectionCounts
 from bridge_demolition_addon.model.results.force_history import breaking_by_kind
 
 CRACKED = {"held_at_end": 51, "yielded": 6}

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from support.sample_results import changed, hanging_chain
 
-from bridge_demolition_addon.model.results.creep import creep_of, creep_summary, creep_text
+from bridge_demolition_addon.model.results.moving import creep_of, creep_summary, creep_text
 
 TIMES_S = np.array([0.0, 0.5, 1.0, 1.5, 2.0])
 WAY = np.array([0.6, 0.0, -0.8])

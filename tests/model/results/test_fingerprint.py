@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from support.sample_results import changed, hanging_chain
 
-from bridge_demolition_addon.model.results.fingerprint import digest, known_parts, result_digest
+from bridge_demolition_addon.model.results.arrays import digest, known_parts, result_digest
 
 
 def test_a_digest_is_the_sha_256_of_names_shapes_and_bytes():

@@ -6,7 +6,7 @@ import pytest
 from support.moving_boxes import moving_boxes
 from support.sample_results import GRAVITY, hanging_chain
 
-from bridge_demolition_addon.model.results.key_frame import impact_step, key_step
+from bridge_demolition_addon.model.results.summary import impact_step, key_step
 
 TIMES_S = np.arange(41) * 0.05
 

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from support.moving_boxes import moving_boxes
 
-from bridge_demolition_addon.engineering.geometry.rotations import rotated, rotation_vectors
+from bridge_demolition_addon.engineering.geometry.vectors import rotated, rotation_vectors
 from bridge_demolition_addon.model.debris.throws import debris_of
 from bridge_demolition_addon.model.results.motion import first_hit, relative_to_ground, throw, travel
 

@@ -6,7 +6,7 @@ import pytest
 from support.sample_results import changed, hanging_chain
 
 from bridge_demolition_addon.model.results.arrays import Results
-from bridge_demolition_addon.model.results.solver_energy import (
+from bridge_demolition_addon.model.results.energy import (
     energy_summary,
     flies_on_solver_energy,
     is_known,

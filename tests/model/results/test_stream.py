@@ -16,9 +16,9 @@ from bridge_demolition_addon.model.results.arrays import (
     INVENTORY_FILE,
     RESULTS_FILE,
     load_results,
+    result_digest,
     results_in,
 )
-from bridge_demolition_addon.model.results.fingerprint import result_digest
 from bridge_demolition_addon.model.results.frames import BallHistory, ContactHistory
 from bridge_demolition_addon.model.results.stream import FrameStream
 

@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 from support.sample_results import GRAVITY, G, changed, hanging_chain, without_connections
 
-from bridge_demolition_addon.model.results.key_frame import impact_step
-from bridge_demolition_addon.model.results.summary import first_hit_s, summarise
+from bridge_demolition_addon.model.results.summary import first_hit_s, impact_step, summarise
 
 BODY_SERIES = (
     "places_m",

@@ -7,8 +7,8 @@ import sys
 import pytest
 
 from bridge_demolition_addon.errors import OutputError
+from bridge_demolition_addon.model.run_folder.files import check_free, list_report, remove_report
 from bridge_demolition_addon.model.run_folder.folder import check_folder, prepare_folder
-from bridge_demolition_addon.model.run_folder.reported import check_free, list_report, remove_report
 from bridge_demolition_addon.system.disk import own_folder, write_whole_text
 from bridge_demolition_addon.system.folder_lock import FolderLock
 

@@ -10,8 +10,7 @@ from support.scenarios import I235
 from bridge_demolition_addon.cli.check import scenario_facts
 from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.scenario import ContactSettings, GroundSurface, Jackhammer, SurfaceValues
-from bridge_demolition_addon.model.scenario.body_surfaces import with_surfaces
-from bridge_demolition_addon.model.scenario.contact_facts import contact_facts, contact_pairs
+from bridge_demolition_addon.model.scenario.contact_facts import contact_facts, contact_pairs, with_surfaces
 from bridge_demolition_addon.model.scenario.contacts import BallContact, GroundContact, ShardContact, SurfaceContact
 from bridge_demolition_addon.model.scenario.file import read_scenario, scenario_from_text, scenario_text
 from bridge_demolition_addon.model.study.keys import changed, keys_named

@@ -10,9 +10,8 @@ from bridge_demolition_addon.engineering.elasticity.section_stiffness import ELA
 from bridge_demolition_addon.engineering.elasticity.steel_bars import Steel
 from bridge_demolition_addon.engineering.mechanics.strength import MATERIALS
 from bridge_demolition_addon.errors import ScenarioError
-from bridge_demolition_addon.model.scenario.connection_joints import joints_of_connections
-from bridge_demolition_addon.model.scenario.connections import ConnectionSettings
-from bridge_demolition_addon.model.scenario.connections_between import ConnectionBetween
+from bridge_demolition_addon.model.scenario.connections import ConnectionSettings, joints_of_connections
+from bridge_demolition_addon.model.scenario.joint_settings import ConnectionBetween
 
 ELASTIC = ConnectionSettings(type="FIXED", method="face", material="concrete", stiffness="elastic")
 

@@ -7,7 +7,7 @@ import pytest
 from support.scenarios import I235
 
 from bridge_demolition_addon.errors import GeometryError
-from bridge_demolition_addon.model.bridge.extent import extent
+from bridge_demolition_addon.model.bridge.preparation import extent
 from bridge_demolition_addon.model.scenario import Ball, BallCable, FractureSettings
 from bridge_demolition_addon.model.sequence.checked_model import checked_model
 

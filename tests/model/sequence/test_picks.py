@@ -12,8 +12,7 @@ from bridge_demolition_addon.model.lifts import Pick
 from bridge_demolition_addon.model.scenario.file import scenario_from_text
 from bridge_demolition_addon.model.sequence.checked_model import checked_model
 from bridge_demolition_addon.model.sequence.ending import doubts_of_run
-from bridge_demolition_addon.model.sequence.lifts import placed_lifts, volume_kg
-from bridge_demolition_addon.model.sequence.structures import model_structure
+from bridge_demolition_addon.model.sequence.lifts import model_structure, placed_lifts, volume_kg
 from bridge_demolition_addon.model.stages.lifted import LIFT_COLUMNS
 from bridge_demolition_addon.model.stages.stages import stages_of
 from bridge_demolition_addon.model.stages.standing import StandingBridge

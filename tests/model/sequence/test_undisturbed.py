@@ -11,7 +11,7 @@ from support.scenarios import I235
 
 from bridge_demolition_addon.model.blast.settings import BlastSettings
 from bridge_demolition_addon.model.scenario import Charge, Geometry, SawCut
-from bridge_demolition_addon.model.sequence.undisturbed import fell_by_itself, first_event_s, self_collapse_text
+from bridge_demolition_addon.model.sequence.ending import fell_by_itself, first_event_s, self_collapse_text
 
 FRAME_S = 1 / 24
 ALONE = replace(I235, ball=None)

@@ -6,8 +6,7 @@ import pytest
 from support.arches_and_frames import FRAME, FRAME_SPANS, WEIGHT_N_M3, scenario_of
 
 from bridge_demolition_addon.model.materials.bar_layers import ReinforcedSection
-from bridge_demolition_addon.model.stages.stability import STANDS
-from bridge_demolition_addon.model.stages.stability_by_statics import stability_of
+from bridge_demolition_addon.model.stages.stability import STANDS, stability_of
 from bridge_demolition_addon.model.structure.model import build_model
 
 DECK_RATIO, DEPTH_M, CLEAR_M = 0.004, 0.7, 14.2

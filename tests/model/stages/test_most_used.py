@@ -8,7 +8,7 @@ import pytest
 
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.model.scenario.file import scenario_from_text
-from bridge_demolition_addon.model.stages.stability_by_statics import stability_of
+from bridge_demolition_addon.model.stages.stability import stability_of
 from bridge_demolition_addon.model.stages.standing import RESISTANCE, StandingBridge, most_used_of
 from bridge_demolition_addon.model.structure.model import build_model
 from bridge_demolition_addon.model.structure.section_use import SectionsWithBars

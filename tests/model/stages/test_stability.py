@@ -12,16 +12,16 @@ from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.model.bridge.preparation import prepared_members
 from bridge_demolition_addon.model.scenario import Charge, ConnectionSettings
 from bridge_demolition_addon.model.scenario.file import read_scenario
-from bridge_demolition_addon.model.sequence.undisturbed import left_alone
+from bridge_demolition_addon.model.sequence.ending import left_alone
 from bridge_demolition_addon.model.sequence.unusual import unusual_sizes
 from bridge_demolition_addon.model.stages.stability import (
     COMES_DOWN,
     STANDS,
     UNKNOWN,
     Stability,
+    stability_of,
     stability_texts,
 )
-from bridge_demolition_addon.model.stages.stability_by_statics import stability_of
 
 pytestmark = pytest.mark.slow
 

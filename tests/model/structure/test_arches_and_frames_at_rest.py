@@ -19,7 +19,7 @@ from support.arches_and_frames import (
 from support.plane_frames import PlaneFrame
 
 from bridge_demolition_addon.engineering.geometry.mesh import volumes_and_centres
-from bridge_demolition_addon.model.scenario.bridge_axes import arch_axis, axes_m, axes_on_arch_m
+from bridge_demolition_addon.model.scenario.bridge_checks import arch_axis, axes_m, axes_on_arch_m
 
 pytestmark = pytest.mark.slow
 

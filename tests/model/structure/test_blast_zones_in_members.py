@@ -16,7 +16,7 @@ from bridge_demolition_addon.model.materials.bar_layers import BarLayer
 from bridge_demolition_addon.model.scenario import Support
 from bridge_demolition_addon.model.scenario.fracture import FracturePoint
 from bridge_demolition_addon.model.sequence.checked_model import check_actions
-from bridge_demolition_addon.model.sequence.structures import model_structure
+from bridge_demolition_addon.model.sequence.lifts import model_structure
 from bridge_demolition_addon.model.structure.blast_zones import (
     POSSIBLE_G_T,
     RECORDED_G_T,

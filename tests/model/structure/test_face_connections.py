@@ -13,7 +13,7 @@ from bridge_demolition_addon.engineering.mechanics.strength import MATERIALS
 from bridge_demolition_addon.engineering.structure.connections import GROUND
 from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.scenario import ConnectionBetween, ConnectionSettings
-from bridge_demolition_addon.model.scenario.connection_joints import joints_of_connections
+from bridge_demolition_addon.model.scenario.connections import joints_of_connections
 from bridge_demolition_addon.model.scenario.file import scenario_from_text, scenario_text
 from bridge_demolition_addon.model.structure.face_connections import rules_of_pairs
 from bridge_demolition_addon.model.structure.model import build_model

@@ -20,8 +20,8 @@ from bridge_demolition_addon.engineering.structure.connections import (
     foundations,
     joined,
     neighbours_by_face,
+    second_moments,
 )
-from bridge_demolition_addon.engineering.structure.face_sections import second_moments
 from bridge_demolition_addon.model.bridge.member import Member
 from bridge_demolition_addon.model.structure.connection_source import CutMembers
 from bridge_demolition_addon.model.structure.equilibrium import at_rest, box_inertia

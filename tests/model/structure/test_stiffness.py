@@ -18,8 +18,8 @@ from bridge_demolition_addon.engineering.structure.connections import (
     foundations,
     joined,
     neighbours_by_face,
+    second_moments,
 )
-from bridge_demolition_addon.engineering.structure.face_sections import second_moments
 from bridge_demolition_addon.errors import GeometryError
 from bridge_demolition_addon.model.bridge.member import Member
 from bridge_demolition_addon.model.bridge.mesh_files import exported

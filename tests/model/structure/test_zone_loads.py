@@ -12,8 +12,7 @@ from bridge_demolition_addon.engineering.geometry.solids import box
 from bridge_demolition_addon.model.bridge.member import Member
 from bridge_demolition_addon.model.scenario import Support
 from bridge_demolition_addon.model.sequence.checked_model import ModelWorksite
-from bridge_demolition_addon.model.stages.stability import Stability
-from bridge_demolition_addon.model.stages.stability_by_statics import stability_of
+from bridge_demolition_addon.model.stages.stability import Stability, stability_of
 from bridge_demolition_addon.model.structure.blast_zones import placed_zone
 from bridge_demolition_addon.model.structure.model import build_model
 from bridge_demolition_addon.model.structure.zone_loads import ZoneLoad, load_facts, zone_falls

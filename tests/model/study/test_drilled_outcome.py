@@ -8,7 +8,7 @@ from support.checkout import EXAMPLES
 from support.moving_boxes import moving_boxes
 
 from bridge_demolition_addon.model.bridge.preparation import prepared_members
-from bridge_demolition_addon.model.optimise.space import total_charge_kg
+from bridge_demolition_addon.model.optimise.file import total_charge_kg
 from bridge_demolition_addon.model.scenario import Neighbour
 from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.model.study.outcome import evaluate

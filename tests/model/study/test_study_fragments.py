@@ -15,8 +15,7 @@ from bridge_demolition_addon.model.bridge.preparation import prepared_members
 from bridge_demolition_addon.model.scenario import Exclusion
 from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.model.structure.charge_plan import charge_plan
-from bridge_demolition_addon.model.study.conclusions import conclusions
-from bridge_demolition_addon.model.study.fragments import NEARLY_ALL, fragment_outputs
+from bridge_demolition_addon.model.study.conclusions import NEARLY_ALL, conclusions, fragment_outputs
 from bridge_demolition_addon.model.study.runs_table import RunRow, RunsTable
 from bridge_demolition_addon.model.study.settings import Vary
 from bridge_demolition_addon.report.ensemble.plan import layers

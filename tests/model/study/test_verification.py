@@ -8,7 +8,7 @@ from scipy.stats import binomtest
 
 from bridge_demolition_addon.engineering.geometry.plan_areas import outlines
 from bridge_demolition_addon.model.scenario import Zone
-from bridge_demolition_addon.model.study.verification import holds, proportion_leaving, zone_area
+from bridge_demolition_addon.model.study.conclusions import holds, proportion_leaving, zone_area
 from bridge_demolition_addon.report.wording.study import harm_sentence
 
 CORNERS = ((0.0, 0.0), (30.0, 0.0), (30.0, 10.0), (0.0, 10.0))

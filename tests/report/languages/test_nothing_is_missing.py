@@ -11,7 +11,7 @@ from support.long_cases import long_but
 from support.reports_of_many_kinds import reports
 
 from bridge_demolition_addon.engineering.unit_systems import IMPERIAL, UnitSystem
-from bridge_demolition_addon.model.scenario.reporting import REPORT_LANGUAGES
+from bridge_demolition_addon.model.scenario.recording import REPORT_LANGUAGES
 from bridge_demolition_addon.report.document.blocks import DataTable, Paragraph
 from bridge_demolition_addon.report.document.drawings import drawings
 from bridge_demolition_addon.report.languages.translated_report import NOTE, translated_document

@@ -11,8 +11,7 @@ from support.blocks import Blocks
 from bridge_demolition_addon.bullet import layout
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.errors import SimulationError
-from bridge_demolition_addon.model.results.arrays import load_results
-from bridge_demolition_addon.model.results.fingerprint import motion_digest
+from bridge_demolition_addon.model.results.arrays import load_results, motion_digest
 from bridge_demolition_addon.model.scenario import Removal
 from bridge_demolition_addon.scene.run_tables import keep_tables
 from bridge_demolition_addon.simulation.blender_events import start_recording, stop_recording

@@ -13,7 +13,7 @@ from bridge_demolition_addon.bullet import layout
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.errors import SimulationError
 from bridge_demolition_addon.model.changes.zone_firings import ZoneFiring
-from bridge_demolition_addon.model.results.solver_energy import throws_of
+from bridge_demolition_addon.model.results.energy import throws_of
 from bridge_demolition_addon.model.scenario import MemberCut
 from bridge_demolition_addon.scene.bodies import mark_member
 from bridge_demolition_addon.scene.demolition import build_demolition

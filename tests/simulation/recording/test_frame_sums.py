@@ -9,7 +9,7 @@ import pytest
 from support.blocks import Blocks
 
 from bridge_demolition_addon.errors import LayoutError
-from bridge_demolition_addon.model.results.fingerprint import result_digest
+from bridge_demolition_addon.model.results.arrays import result_digest
 from bridge_demolition_addon.simulation.blender_events import start_recording, stop_recording
 from bridge_demolition_addon.simulation.recording import frame_sums
 from bridge_demolition_addon.simulation.recording.frame_sums import THREAD_NAME, BackgroundWork, FrameSums

@@ -6,8 +6,7 @@ import pytest
 from support.falling_pair import FRAMES, FallingPair, play
 from support.processes import run_program
 
-from bridge_demolition_addon.model.results.arrays import FRAMES_FILE, load_results
-from bridge_demolition_addon.model.results.fingerprint import result_digest
+from bridge_demolition_addon.model.results.arrays import FRAMES_FILE, load_results, result_digest
 from bridge_demolition_addon.simulation.blender_events import stop_recording
 
 MANY = 150

@@ -197,7 +197,7 @@ def test_the_arrow_of_the_largest_force_is_as_long_as_asked_for(recorded):
 
 def test_rings_are_as_wide_as_the_stand_off(recorded):
     from bridge_demolition_addon.model.blast.charges import Charge
-    from bridge_demolition_addon.model.blast.damage import THRESHOLDS, ring_radii
+    from bridge_demolition_addon.model.blast.receptors import THRESHOLDS, ring_radii
     from bridge_demolition_addon.scene.blast.charges import create_charges
     from bridge_demolition_addon.ui.contours.decorator import ring_lines
 

@@ -14,7 +14,7 @@ from support.scenarios import SHORT_RUN
 import bridge_demolition_addon
 from bridge_demolition_addon.display.preview_outcome import PreviewOutcome
 from bridge_demolition_addon.model.scenario.file import scenario_text
-from bridge_demolition_addon.model.study.preview_trust import ALIKE_PERCENT
+from bridge_demolition_addon.model.study.preview_scenario import ALIKE_PERCENT
 from bridge_demolition_addon.studies.preview_process import Preview
 
 pytestmark = pytest.mark.slow

@@ -11,9 +11,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...errors import ScenarioError
-from ..arrays import FloatArray
-from ..units import STANDARD_GRAVITY_M_S2
+from ..errors import ScenarioError
+from .arrays import FloatArray
+from .units import STANDARD_GRAVITY_M_S2
 
 LARGEST_ACCELERATION_M_S2 = 5.0 * STANDARD_GRAVITY_M_S2
 """More was not recorded on the ground: 4.36 g at Iwate-Miyagi in 2008, all three components together (S. Aoi, T.

@@ -1,1 +1,0 @@
-"""Soil under footings."""
