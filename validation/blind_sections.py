@@ -7,7 +7,7 @@ from pathlib import Path
 
 from blind import BlindCase, Foreseen
 
-from bridge_demolition_addon.model.materials.bar_layers import ReinforcedSection
+from bridge_demolition_addon.model.materials import ReinforcedSection
 
 LEAST, MOST = 0.9, 1.1
 """What the plastic moment with the yield strength, and that with the tensile strength, are multiplied by."""

@@ -10,8 +10,7 @@ from case import RIGID_BODIES, simulated
 from matplotlib.axes import Axes
 from solids import block
 
-from bridge_demolition_addon.engineering.elasticity.bar_rupture import tensile_strength_pa
-from bridge_demolition_addon.engineering.elasticity.steel_bars import MODULUS_PA
+from bridge_demolition_addon.engineering.elasticity.steel_bars import MODULUS_PA, tensile_strength_pa
 from bridge_demolition_addon.engineering.geometry.mesh import TriangleMesh
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2 as G
 

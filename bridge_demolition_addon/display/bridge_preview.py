@@ -13,7 +13,7 @@ from ..model.bridge import deck_top
 from ..model.bridge.member import Member, own_axes
 from ..model.bridge.substructure import substructure
 from ..model.bridge.superstructure import superstructure
-from ..model.materials.bar_layers import BarLayer
+from ..model.materials import BarLayer
 from ..model.scenario import Ball, Bridge
 from ..model.scenario.ball import BallCable
 from ..model.schema import given

@@ -15,8 +15,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from .arrays import BoolArray, FloatArray, IntArray
-from .elasticity.spring_law import PressedSprings
-from .elasticity.springs import SpringPositions, spring_term
+from .elasticity.springs import PressedSprings, SpringPositions, spring_term
 from .elasticity.substep import Term
 
 _ANY = 1e300

@@ -13,7 +13,7 @@ from ..engineering.geometry.solids import contains
 from ..engineering.geometry.vectors import AXES, SIDES, length, transformed
 from ..errors import GeometryError
 from ..model.bridge.member import Member
-from ..model.materials.bar_layers import BarLayer
+from ..model.materials import BarLayer
 from .alignments import points_of
 from .elements import Element
 from .library import library

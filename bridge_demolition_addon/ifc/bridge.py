@@ -11,7 +11,7 @@ from pathlib import Path
 from ..engineering.geometry.mesh import TriangleMesh
 from ..errors import IfcError
 from ..model.bridge.member import Member
-from ..model.materials.bar_layers import BarLayer
+from ..model.materials import BarLayer
 from ..model.scenario import (
     ConnectionBetween,
     ConnectionSettings,

@@ -7,7 +7,7 @@ from typing import ClassVar, Self
 
 from ..engineering.mechanics.strength import MATERIALS, NEWTON_PER_SQUARE_MILLIMETRE
 from ..errors import IfcError, OutputError, ScenarioError
-from ..model.materials.materials import MODULUS, Material
+from ..model.materials import MODULUS, Material
 from ..model.schema import Table, given, key
 from ..model.toml_tables import document_of_file, table_of_document, toml_document
 from ..system.disk import whole_file, writing

@@ -21,8 +21,8 @@ from ..engineering.geometry.solids import to_manifold
 from ..engineering.geometry.vectors import dot, length, transformed, unit
 from ..engineering.steelwork.bars import bar_axes
 from ..engineering.steelwork.catalogue import section_named
-from ..engineering.steelwork.grades import GRADES
 from ..engineering.steelwork.named_sections import PlacedSection, section_of_outline
+from ..engineering.steelwork.resistance import GRADES
 from ..engineering.steelwork.sections import SteelSection
 from ..errors import GeometryError
 from .element_materials import ElementMaterial

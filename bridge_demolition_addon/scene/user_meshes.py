@@ -1,6 +1,8 @@
-"""The user's own mesh objects: their solids, and weights painted on them."""
+"""Mesh objects of the user's files: their solids, weights painted on them, and what is no member, shown as wire."""
 
 from __future__ import annotations
+
+from collections.abc import Mapping
 
 import bpy
 import numpy as np
@@ -10,6 +12,7 @@ from ..engineering.geometry.repair import Repaired, repaired_solid
 from ..engineering.geometry.vectors import transformed
 from ..errors import GeometryError
 from .bodies import triangle_mesh
+from .collections import ROLE, collection_for, remove_marked
 
 
 def solid_of_object(body: bpy.types.Object) -> Repaired:
@@ -57,3 +60,21 @@ def _in_world(body: bpy.types.Object, vertices: np.ndarray) -> np.ndarray:
     """Return vertices (v, 3) of an object, from its own axes to the world's, m."""
     matrix = np.array(body.matrix_world, dtype=float)
     return transformed(matrix[:3, :3], vertices) + matrix[:3, 3]
+
+
+LEFT_OUT_ROLE = "IFC Left Out"
+
+
+def show_left_out(scene: bpy.types.Scene, meshes: Mapping[str, TriangleMesh]) -> list[bpy.types.Object]:
+    """Show elements by their names as wire, in place of those that were shown before."""
+    remove_marked(scene, LEFT_OUT_ROLE)
+    shown = []
+    for name, mesh in meshes.items():
+        data = bpy.data.meshes.new(name)
+        data.from_pydata(mesh.vertices.tolist(), [], mesh.triangles.tolist())
+        wire = bpy.data.objects.new(name, data)
+        wire[ROLE] = LEFT_OUT_ROLE
+        wire.display_type, wire.hide_render, wire.hide_select = "WIRE", True, False
+        collection_for(scene, LEFT_OUT_ROLE).objects.link(wire)
+        shown.append(wire)
+    return shown

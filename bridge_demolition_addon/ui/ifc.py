@@ -13,7 +13,7 @@ from ..ifc.import_process import Imported, import_bridge, list_elements
 from ..ifc.library import missing_reason
 from ..ifc.settings import KINDS, UNITS, ImportSettings
 from ..model.scenario.file import read_scenario
-from ..scene.left_out import show_left_out
+from ..scene.user_meshes import show_left_out
 from .languages.words import translated
 from .modal_task import ModalTask, SteppedThread, Work
 from .operators import Action, UndoableAction, absolute

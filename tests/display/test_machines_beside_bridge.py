@@ -7,10 +7,14 @@ import numpy as np
 import pytest
 from support.sample_results import CUBE, changed, hanging_chain
 
-from bridge_demolition_addon.display.ball_crane import ball_cranes
-from bridge_demolition_addon.display.breaker_excavator import breaker_excavators, excavator_parts
+from bridge_demolition_addon.display.crawlers import (
+    StandingRoom,
+    ball_cranes,
+    boxes_around,
+    breaker_excavators,
+    excavator_parts,
+)
 from bridge_demolition_addon.display.dressing import DrawnPart, Stuff
-from bridge_demolition_addon.display.standing_room import StandingRoom, boxes_around
 from bridge_demolition_addon.engineering.geometry.solids import box, to_manifold
 
 pytestmark = pytest.mark.slow

@@ -11,7 +11,7 @@ from support.steelwork import truss_forces
 
 from bridge_demolition_addon.engineering.geometry.overlap import hulls, overlaps
 from bridge_demolition_addon.engineering.steelwork.catalogue import section_named
-from bridge_demolition_addon.engineering.steelwork.grades import DENSITY_KG_M3
+from bridge_demolition_addon.engineering.steelwork.resistance import DENSITY_KG_M3
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.errors import IfcError
 from bridge_demolition_addon.ifc.bridge import read_bridge

@@ -23,12 +23,10 @@ from bridge_demolition_addon.engineering.core import library
 from bridge_demolition_addon.engineering.core.calls import answer_of, call
 from bridge_demolition_addon.engineering.drilled_charges.cages import BareBars, Cages
 from bridge_demolition_addon.engineering.elasticity.cracks import Cracks, ExpectedCracks, corner_positions
-from bridge_demolition_addon.engineering.elasticity.equations import RigidBodies
-from bridge_demolition_addon.engineering.elasticity.joint_forces import stored_energies, velocities_alone
+from bridge_demolition_addon.engineering.elasticity.equations import BlockSystem, RigidBodies
 from bridge_demolition_addon.engineering.elasticity.joint_rows import JointFrames
-from bridge_demolition_addon.engineering.elasticity.sparse_system import BlockSystem
-from bridge_demolition_addon.engineering.elasticity.spring_law import PressedSprings
-from bridge_demolition_addon.engineering.elasticity.springs import SpringPositions
+from bridge_demolition_addon.engineering.elasticity.kept_joints import stored_energies, velocities_alone
+from bridge_demolition_addon.engineering.elasticity.springs import PressedSprings, SpringPositions
 from bridge_demolition_addon.engineering.elasticity.steel_bars import Steel
 from bridge_demolition_addon.engineering.elasticity.structure import ElasticStructure, StepInput
 from bridge_demolition_addon.engineering.elasticity.substep import (
@@ -43,9 +41,8 @@ from bridge_demolition_addon.engineering.elasticity.substep import (
 )
 from bridge_demolition_addon.engineering.geometry.hulls import ConvexHulls
 from bridge_demolition_addon.engineering.geometry.vectors import symmetric_eigenvectors
-from bridge_demolition_addon.engineering.mechanics.carried_sections import CarriedSections
+from bridge_demolition_addon.engineering.mechanics.carried_sections import CarriedSections, MemberSections
 from bridge_demolition_addon.engineering.mechanics.frame_loads import LoadAccumulator, SubstepLoads
-from bridge_demolition_addon.engineering.mechanics.member_sections import MemberSections
 from bridge_demolition_addon.engineering.mechanics.overloads import Overloads
 from bridge_demolition_addon.engineering.mechanics.section_cuts import ConnectedFaces
 from bridge_demolition_addon.engineering.mechanics.strength import MATERIALS

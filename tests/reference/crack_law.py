@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from bridge_demolition_addon.engineering.arrays import FloatArray
-from bridge_demolition_addon.engineering.elasticity.crack_law import DOWEL_SHARE, SHEARED, stretches_of_bars
+from bridge_demolition_addon.engineering.elasticity.crack_state import DOWEL_SHARE, SHEARED, stretches_of_bars
 from bridge_demolition_addon.engineering.elasticity.joint_rows import dot_products
 from bridge_demolition_addon.engineering.elasticity.steel_bars import Bars, bar_forces, bar_response
 

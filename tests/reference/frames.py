@@ -8,8 +8,8 @@ import itertools
 import numpy as np
 
 from bridge_demolition_addon.engineering.geometry.vectors import cross_by_component, length
-from bridge_demolition_addon.engineering.mechanics.forces import PairSums
 from bridge_demolition_addon.engineering.mechanics.frame_loads import SubstepLoads
+from bridge_demolition_addon.engineering.mechanics.stress import PairSums
 from bridge_demolition_addon.engineering.mechanics.work import PairImpulses
 
 _NO_PAIR = np.iinfo(np.int64).max

@@ -8,8 +8,13 @@ import numpy as np
 from bridge_demolition_addon.engineering.geometry.proximity import ranges
 from bridge_demolition_addon.engineering.geometry.vectors import carried_points, cross_by_component, product
 from bridge_demolition_addon.engineering.mechanics.carried_sections import CarriedSections
-from bridge_demolition_addon.engineering.mechanics.section_cuts import ConnectedFaces, ConnectionLoads, SectionCuts
-from bridge_demolition_addon.engineering.mechanics.section_forces import SectionForces, section_forces
+from bridge_demolition_addon.engineering.mechanics.section_cuts import (
+    ConnectedFaces,
+    ConnectionLoads,
+    SectionCuts,
+    SectionForces,
+    section_forces,
+)
 from bridge_demolition_addon.engineering.mechanics.strength import Sections, Strength, strength_at
 
 from .strength import cut_loads, rectangular_sections, utilisation

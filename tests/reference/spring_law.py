@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from bridge_demolition_addon.engineering.elasticity.spring_law import PressedSprings
+from bridge_demolition_addon.engineering.elasticity.springs import PressedSprings
 
 
 class ReferenceSprings(PressedSprings):

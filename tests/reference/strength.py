@@ -10,8 +10,12 @@ from bridge_demolition_addon.engineering.geometry.vectors import (
     length,
     transformed_back,
 )
-from bridge_demolition_addon.engineering.mechanics.section_cuts import ConnectedFaces, ConnectionLoads
-from bridge_demolition_addon.engineering.mechanics.section_forces import SectionForces, section_forces
+from bridge_demolition_addon.engineering.mechanics.section_cuts import (
+    ConnectedFaces,
+    ConnectionLoads,
+    SectionForces,
+    section_forces,
+)
 from bridge_demolition_addon.engineering.mechanics.strength import Sections, Strength
 
 from .geometry import symmetric_eigenvectors_2d

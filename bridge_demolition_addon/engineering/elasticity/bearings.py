@@ -21,8 +21,7 @@ import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray
 from .joint_rows import turned, turned_back
-from .spring_law import PressedSprings
-from .springs import SpringPositions, loads_of_springs, spring_term, stiffness_of_springs
+from .springs import PressedSprings, SpringPositions, loads_of_springs, spring_term, stiffness_of_springs
 from .substep import Term
 
 _LIFTED_M = 0.02

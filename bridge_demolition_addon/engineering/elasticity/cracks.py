@@ -20,8 +20,7 @@ import numpy as np
 from ..arrays import BoolArray, FloatArray, IntArray
 from ..core.calls import call
 from ..core.structs import Count, Doubles, Indices, Struct, WrittenDoubles, WrittenFlags
-from .crack_law import DOWEL_SHARE, FRICTION, SHEARED, stretches_of_bars
-from .crack_state import CrackState
+from .crack_state import DOWEL_SHARE, FRICTION, SHEARED, CrackState, stretches_of_bars
 from .joint_rows import (
     dot_products,
     turned,

@@ -11,10 +11,18 @@ import numpy as np
 from ..arrays import BoolArray, FloatArray, IntArray
 from ..geometry.vectors import rotated
 from .bearings import Bearings
-from .equations import RigidBodies, connected_parts, spring_forces, stiffness_blocks, summed_on_bodies, without
-from .frequencies import SLACK, first_frequency
+from .equations import (
+    SLACK,
+    BlockSystem,
+    RigidBodies,
+    connected_parts,
+    first_frequency,
+    spring_forces,
+    stiffness_blocks,
+    summed_on_bodies,
+    without,
+)
 from .joint_rows import JointFrames, JointRows, components_first, components_last, joint_positions
-from .sparse_system import BlockSystem
 from .tendons import TendonForces
 
 _LARGEST_M = 0.5

@@ -1,4 +1,4 @@
-"""Deformations of connections, and their rates by the motion of the bodies.
+"""Deformations of connections and gaps, their rates by the motion of bodies, and how inertia resists impulses in them.
 
 Each connection has six rows, as Bullet's own constraint between two frames: three shifts of the second frame against
 the first, along the axes of the first, and three turns, the angles of Euler in the order x, y, z. Only with these rows
@@ -9,6 +9,7 @@ All arrays have their components first and the connections last, so that numpy w
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, fields
 
 import numpy as np
@@ -204,3 +205,82 @@ def _beside(left: FloatArray, right: FloatArray) -> FloatArray:
 def _unit(vectors: FloatArray) -> FloatArray:
     lengths = np.sqrt(dot_products(vectors, vectors))
     return np.divide(vectors, lengths, out=np.zeros_like(vectors), where=lengths > 0.0)
+
+
+def stiffness_of_points(
+    tangents_n_m: FloatArray,
+    first_arms_m: FloatArray,
+    second_arms_m: FloatArray,
+    summed: Callable[[FloatArray], FloatArray] = lambda values: values,
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return the stiffness (6, 6, c) of q gaps for their first and second bodies, and between these.
+
+    Forces across the gaps grow by tangents (3, 3, q) with their width; they act at arms (3, q) from the centres of the
+    bodies. `summed` takes what is of gaps (…, q) together to what is of c connections.
+    """
+    turning_first, turning_second = (_across(arms, tangents_n_m) for arms in (first_arms_m, second_arms_m))
+    to_first, to_second = (cross_products(arms[:, None], tangents_n_m) for arms in (first_arms_m, second_arms_m))
+    about_first = cross_products(first_arms_m[:, None], turning_first)
+    about_second = cross_products(second_arms_m[:, None], turning_second)
+    about_both = cross_products(first_arms_m[:, None], turning_second)
+    pushed = summed(tangents_n_m)
+    shifted_first, shifted_second = summed(turning_first), summed(turning_second)
+    moments_first, moments_second = summed(to_first), summed(to_second)
+    return (
+        _block(pushed, shifted_first, moments_first, summed(about_first)),
+        _block(pushed, shifted_second, moments_second, summed(about_second)),
+        -_block(pushed, shifted_second, moments_first, summed(about_both)),
+    )
+
+
+def _across(arms_m: FloatArray, tangents_n_m: FloatArray) -> FloatArray:
+    """Growth (3, 3, q) of forces as the body turns, where they grow by tangents as its points shift."""
+    return np.swapaxes(cross_products(arms_m[:, None], np.swapaxes(tangents_n_m, 0, 1)), 0, 1)
+
+
+def _block(shifts: FloatArray, turns: FloatArray, moments: FloatArray, moments_of_turns: FloatArray) -> FloatArray:
+    """Matrices (6, 6, c) of four (3, 3, c)."""
+    return np.concatenate(
+        (np.concatenate((shifts, turns), axis=1), np.concatenate((moments, moments_of_turns), axis=1))
+    )
+
+
+def inertia_tensors(inverse: FloatArray, rotations: FloatArray, masses_kg: FloatArray) -> FloatArray:
+    """Return tensors of inertia (3, 3, n) in the axes of the bodies, kg m², from inverse ones in those of the world.
+
+    Rotations (3, 3, n) are from the axes of each body to those of the world. Bodies without a mass have zeros.
+    """
+    local = matrix_products(matrix_products(transposed(rotations), inverse), rotations)
+    (a, b, c), (_, d, e), (_, _, f) = local
+    minors = np.stack(
+        (
+            np.stack((d * f - e * e, c * e - b * f, b * e - c * d)),
+            np.stack((c * e - b * f, a * f - c * c, b * c - a * e)),
+            np.stack((b * e - c * d, b * c - a * e, a * d - b * b)),
+        )
+    )
+    determinants = a * minors[0, 0] + b * minors[0, 1] + c * minors[0, 2]
+    moves = (masses_kg > 0.0) & (determinants > 0.0)
+    tensors: FloatArray = np.divide(minors, determinants, out=np.zeros_like(minors), where=moves)
+    return tensors
+
+
+def effective_inverse_masses(
+    rows: JointRows, ends: tuple[IntArray, IntArray], inverse_masses: FloatArray, inverse_inertias: FloatArray
+) -> FloatArray:
+    """Return by how much a unit impulse in each row (6, m) changes the velocity in it, of pairs of bodies.
+
+    Inverse masses (n,) are in 1/kg, inverse inertias (3, 3, n) in 1/(kg m²), in the axes of the world.
+    """
+    of_bodies = []
+    for body, turning in zip(ends, (rows.first_turning, rows.second_turning), strict=True):
+        inertia = inverse_inertias[..., body]
+        shifts = inverse_masses[body] + _squares(turning, inertia)
+        of_bodies.append(np.concatenate((shifts, _squares(rows.turning, inertia))))
+    return of_bodies[0] + of_bodies[1]
+
+
+def _squares(vectors: FloatArray, matrices: FloatArray) -> FloatArray:
+    """Products vᵀ M v (3, m) of vectors (3, 3, m), one after another, with matrices (3, 3, m)."""
+    turned = matrix_products(vectors, matrices)
+    return turned[:, 0] * vectors[:, 0] + turned[:, 1] * vectors[:, 1] + turned[:, 2] * vectors[:, 2]

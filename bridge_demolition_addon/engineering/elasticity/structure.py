@@ -21,12 +21,9 @@ from ..arrays import BoolArray, FloatArray, IntArray
 from .bearings import Bearings
 from .crack_state import CrackState
 from .cracks import Cracks
-from .equations import RigidBodies, connected_parts, stiffness_blocks, without
-from .frequencies import SLACK, first_frequency
-from .joint_forces import stored_energies
+from .equations import SLACK, BlockSystem, RigidBodies, connected_parts, first_frequency, stiffness_blocks, without
 from .joint_rows import JointFrames, joint_positions
-from .kept_joints import KeptJoints
-from .sparse_system import BlockSystem
+from .kept_joints import KeptJoints, stored_energies
 from .substep import Places, Substep, Term
 
 

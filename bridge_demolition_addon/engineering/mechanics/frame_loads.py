@@ -13,8 +13,7 @@ from ..arrays import FloatArray, IntArray
 from ..core.calls import call
 from ..core.structs import Count, Doubles, Indices, Struct, WrittenDoubles
 from ..geometry.vectors import as_components, as_vectors, length
-from .forces import PairSums
-from .stress import average_stress, von_mises
+from .stress import PairSums, average_stress, von_mises
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,10 +9,8 @@ import numpy as np
 from ..arrays import BoolArray, FloatArray, IntArray
 from ..core.calls import call
 from ..core.structs import Count, Doubles, Flags, Indices, Struct, WrittenDoubles, WrittenIndices
-from .carried_sections import CUT_THROUGH, CarriedSections, CutsThrough, Resisting, pack
-from .member_sections import MemberSections
-from .section_cuts import ConnectedFaces, ConnectionLoads, SectionCuts, worst_around
-from .section_forces import SectionForces
+from .carried_sections import CUT_THROUGH, CarriedSections, CutsThrough, MemberSections, Resisting, pack
+from .section_cuts import ConnectedFaces, ConnectionLoads, SectionCuts, SectionForces, worst_around
 from .strength import (
     Strength,
     largest_utilisations,

@@ -17,7 +17,7 @@ from ..core.calls import call
 from ..core.structs import Doubles
 from ..geometry.vectors import length
 from .carried_sections import RESISTING, pack
-from .section_forces import SectionForces
+from .section_cuts import SectionForces
 
 NEWTON_PER_SQUARE_MILLIMETRE = 1e6
 """1 N/mm² in Pa."""

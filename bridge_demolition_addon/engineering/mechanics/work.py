@@ -25,7 +25,7 @@ from ..arrays import BoolArray, FloatArray, IntArray
 from ..core.calls import call
 from ..core.structs import Count, Doubles, Flags, Indices, Struct, WrittenDoubles, WrittenIndices
 from ..geometry.vectors import as_components, as_vectors, cross_by_component, dot
-from .forces import PairSums
+from .stress import PairSums
 from .touches import Touches
 
 

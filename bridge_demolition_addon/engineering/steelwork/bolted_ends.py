@@ -15,8 +15,7 @@ from ...errors import ScenarioError
 from ..arrays import FloatArray
 from ..mechanics.strength import Strength
 from .bolts import BoltPattern, Bolts
-from .grades import strengths_pa
-from .resistance import plastic_strength
+from .resistance import plastic_strength, strengths_pa
 from .sections import FLAT_BAR, LEG, WEB, FlatPart, SteelSection
 
 _MM = 1e-3

@@ -11,7 +11,7 @@ import re
 from dataclasses import dataclass, replace
 
 from ...errors import ScenarioError
-from .grades import GRADES
+from .resistance import GRADES
 from .sections import SteelSection
 
 _MM, _MM2, _MPA = 1e-3, 1e-6, 1e6

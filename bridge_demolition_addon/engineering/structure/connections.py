@@ -13,7 +13,7 @@ from ..geometry.mesh import TriangleMesh, triangle_areas_and_normals
 from ..geometry.plan_areas import signed_area
 from ..geometry.proximity import blocks, boxes_that_meet, nearest_points, points_within, ranges
 from ..geometry.vectors import dot, outer, transformed_back, unit
-from ..mechanics.section_forces import section_axes
+from ..mechanics.section_cuts import section_axes
 
 GROUND = -1
 """Stands for the ground where a connection names its second body."""

@@ -9,7 +9,7 @@ from ...engineering.mechanics.strength import Strength
 from ...texts import Text, joined
 from ..bridge.substructure import substructure
 from ..bridge.superstructure import superstructure
-from ..materials.materials import strengths
+from ..materials import strengths
 from ..scenario import Scenario
 from ..scenario.scenario import bars_by_rule
 

@@ -12,8 +12,7 @@ from ...engineering.reinforced_concrete.materials import Concrete
 from ...errors import ScenarioError
 from ...texts import Text
 from ..bridge.member import Member
-from ..materials.bar_layers import BarLayer
-from ..materials.materials import strengths
+from ..materials import BarLayer, strengths
 from ..scenario import Bridge, Scenario
 from ..scenario.reinforcement import BarRule, BridgeReinforcement, GeometryReinforcement
 from ..scenario.scenario import bars_by_rule, rules_of_bars

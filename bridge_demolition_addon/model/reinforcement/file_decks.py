@@ -15,8 +15,7 @@ from ...engineering.reinforced_concrete.least_areas import SECONDARY_SHARE
 from ...engineering.reinforced_concrete.traffic import Traffic, lever_rule, strip_widths_m
 from ...texts import Text
 from ..bridge.member import own_axes
-from .beam_effects import BeamEffects, beam_effects
-from .design_basis import LEAST, Tension
+from .design_basis import LEAST, BeamEffects, Tension, beam_effects
 from .file_members import ADVICE, FileDesign, LyingSection, Rows, in_own_axes
 from .load_paths import Superstructure, carriers_of
 from .schedule import ScheduledLinks

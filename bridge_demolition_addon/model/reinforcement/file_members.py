@@ -12,7 +12,7 @@ from ...engineering.geometry.vectors import AXES
 from ...engineering.reinforced_concrete.bending import PressedShape
 from ...errors import ScenarioError
 from ..bridge.member import Member, own_axes
-from ..materials.bar_layers import BarLayer
+from ..materials import BarLayer
 from ..scenario.reinforcement import USUAL_COVER_M
 from .design_basis import LEAST, BarDesign
 from .load_paths import Seat

@@ -12,8 +12,7 @@ from ...engineering.reinforced_concrete.influence_lines import MovingLoad, extre
 from ...engineering.reinforced_concrete.least_areas import LARGEST_SHARE, level_of_wall_m2, upright_of_wall_m2
 from ...engineering.reinforced_concrete.materials import PERMANENT_FACTOR, VARIABLE_FACTOR
 from ..bridge.member import own_axes
-from .beam_effects import beam_effects
-from .design_basis import LEAST, column_loads
+from .design_basis import LEAST, beam_effects, column_loads
 from .file_decks import FileDeckLine, beam_rows
 from .file_members import LEAST_RATIO, FileDesign, LyingSection, Rows, in_own_axes, spread_rows
 from .load_paths import carriers_of, spans

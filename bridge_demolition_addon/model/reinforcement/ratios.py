@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from ..bridge.member import Member, members_named, own_axes
-from ..materials.bar_layers import BarLayer
+from ..materials import BarLayer
 from ..scenario import RatiosOfMember
 from ..scenario.arch import ARCH_KIND
 from ..scenario.bridge_checks import arch_axis

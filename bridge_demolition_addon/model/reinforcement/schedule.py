@@ -15,7 +15,7 @@ from ...engineering.reinforced_concrete.materials import STEEL_DENSITY_KG_M3
 from ...texts import Quantity, Text
 from ..actions import Fact
 from ..bridge.member import Member
-from ..materials.bar_layers import BarLayer
+from ..materials import BarLayer
 from ..scenario import Scenario
 from ..scenario.scenario import rules_of_bars
 from ..schema import given

@@ -20,8 +20,7 @@ from ...texts import Text
 from ..bridge.layout import deck_ends, pier_axes
 from ..bridge.member import Member
 from ..schema import given
-from .beam_effects import BeamEffects, beam_effects
-from .design_basis import LEAST, DesignBasis, Tension
+from .design_basis import LEAST, BeamEffects, DesignBasis, Tension, beam_effects
 from .schedule import ScheduledBars, ScheduledLinks
 
 Rows = Iterator[ScheduledBars | ScheduledLinks]

@@ -13,7 +13,7 @@ import numpy as np
 
 from ...engineering.elasticity.crack_state import FrameCracks
 from ...engineering.mechanics.bearing_loads import BearingLoads
-from ...engineering.mechanics.section_forces import SectionForces
+from ...engineering.mechanics.section_cuts import SectionForces
 from ...engineering.mechanics.stress import principal_stresses
 from ...errors import OutputError, UnreadableError
 from ...system.disk import is_in_place, writing

@@ -13,8 +13,7 @@ from ..changes.removals import Removal, Weakening
 from ..changes.saw_cuts import SawCut, TendonCut
 from ..lifts import Lift
 from ..loads.loads import Load
-from ..materials.bar_layers import BarLayer
-from ..materials.materials import Material
+from ..materials import BarLayer, Material
 from ..pulls import Pull
 from .arch import Arch, RigidFrame
 from .ball import Ball, BallCable, BallHit

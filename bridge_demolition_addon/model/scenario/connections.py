@@ -11,7 +11,7 @@ from ...engineering.elasticity.steel_bars import MODULUS_PA, USUAL_STEEL, Steel
 from ...engineering.mechanics.joint import TYPES, Joint
 from ...engineering.mechanics.strength import MATERIALS, NEWTON_PER_SQUARE_MILLIMETRE, SMEARED, Strength
 from ...errors import ScenarioError
-from ..materials.materials import MODULUS, POISSON, Material, moduli, strengths
+from ..materials import MODULUS, POISSON, Material, moduli, strengths
 from ..schema import LARGEST_INTEGER, SHARE, check_exactly_one, expected, given, key
 from .joint_settings import ELASTIC_TYPES, OWN_MATERIAL, STEEL_KEYS, STRENGTH_KEYS, ConnectionBetween, JointSettings
 

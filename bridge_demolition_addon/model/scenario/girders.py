@@ -13,7 +13,7 @@ from ...engineering.elasticity.section_stiffness import ElasticModuli
 from ...engineering.mechanics.joint import Joint
 from ...engineering.mechanics.strength import Strength
 from ...engineering.steelwork.catalogue import section_named
-from ...engineering.steelwork.grades import GRADES
+from ...engineering.steelwork.resistance import GRADES
 from ...engineering.steelwork.sections import SteelSection
 from ...engineering.steelwork.studs import (
     FRICTION_OF_STEEL,

@@ -7,7 +7,7 @@ from ...engineering.mechanics.joint import MOTIONS, TYPES, Springs
 from ...engineering.mechanics.strength import MATERIALS
 from ...engineering.units import STANDARD_GRAVITY_M_S2
 from ...errors import ScenarioError
-from ..materials.materials import MODULUS, POISSON
+from ..materials import MODULUS, POISSON
 from ..schema import Table, key
 
 STRENGTH_KEYS = ("breaking_force_n", "breaking_force_kgf", "material")

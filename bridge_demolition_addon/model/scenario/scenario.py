@@ -26,8 +26,7 @@ from ..ground_motion.sources import ground_record
 from ..lifts import Lift
 from ..loads.loads import Load
 from ..loads.pressures import Pressure
-from ..materials.bar_layers import BarLayer
-from ..materials.materials import Material, check_materials
+from ..materials import BarLayer, Material, check_materials
 from ..pulls import Pull
 from ..schema import (
     LARGEST_INTEGER,

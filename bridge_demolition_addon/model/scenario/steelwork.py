@@ -12,8 +12,14 @@ from ...engineering.mechanics.strength import Strength
 from ...engineering.steelwork.bolted_ends import BoltedEnd, bolted_end
 from ...engineering.steelwork.bolts import RUPTURE_M, Bolts, bolts_named
 from ...engineering.steelwork.catalogue import section_named
-from ...engineering.steelwork.grades import DENSITY_KG_M3, GRADES, STEEL_MODULI, strengths_pa
-from ...engineering.steelwork.resistance import initial_bow_m, plastic_strength
+from ...engineering.steelwork.resistance import (
+    DENSITY_KG_M3,
+    GRADES,
+    STEEL_MODULI,
+    initial_bow_m,
+    plastic_strength,
+    strengths_pa,
+)
 from ...engineering.steelwork.sections import SteelSection
 from ...errors import Faults, ScenarioError
 from ..schema import SHORTEST_LENGTH_M, SIZE, Table, key, shown

@@ -13,8 +13,7 @@ from ...engineering.elasticity.equilibrium import Equilibrium
 from ...engineering.elasticity.tendons import CutTendon, TendonForces
 from ...engineering.mechanics.joint import Joint
 from ...engineering.mechanics.overloads import Overloads
-from ...engineering.mechanics.section_cuts import ConnectionLoads
-from ...engineering.mechanics.section_forces import SectionForces
+from ...engineering.mechanics.section_cuts import ConnectionLoads, SectionForces
 from ...engineering.units import STANDARD_GRAVITY_M_S2
 from ...errors import ScenarioError
 from ..scenario import Scenario

@@ -30,7 +30,7 @@ from ..actions import Fact
 from ..blast.blast_zones import THROWN_AWAY, BlastZone, element_of, length_of_charge_m
 from ..bridge.member import Member, members_named
 from ..changes.zone_firings import ZoneFiring
-from ..materials.bar_layers import BarLayer
+from ..materials import BarLayer
 from ..reinforcement.design import all_layers
 from ..scenario import MemberCut, Scenario
 from ..schema import given

@@ -8,17 +8,21 @@ from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
-from ...engineering.elasticity.anchorage import anchorage_length_m, anchored_shares
-from ...engineering.elasticity.bar_rupture import tensile_strength_pa
-from ...engineering.elasticity.steel_bars import MODULUS_PA, Steel
+from ...engineering.elasticity.steel_bars import (
+    MODULUS_PA,
+    Steel,
+    anchorage_length_m,
+    anchored_shares,
+    tensile_strength_pa,
+)
 from ...engineering.geometry.mesh import TriangleMesh, plane_cuts
 from ...engineering.geometry.vectors import dot, length, transformed, transformed_back, unit
 from ...engineering.mechanics.joint import Joint
 from ...engineering.mechanics.reinforcement import FaceBars
-from ...engineering.mechanics.section_forces import section_axes
+from ...engineering.mechanics.section_cuts import section_axes
 from ...engineering.structure.connections import Connections, triangles_in_faces
 from ..bridge.member import Member
-from ..materials.bar_layers import BarLayer
+from ..materials import BarLayer
 from ..reinforcement.design import all_layers
 from ..schema import given
 from .composite_decks import DeckContacts

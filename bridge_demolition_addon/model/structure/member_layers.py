@@ -9,21 +9,22 @@ from itertools import pairwise
 
 import numpy as np
 
-from ...engineering.elasticity.bar_rupture import (
+from ...engineering.elasticity.steel_bars import (
+    MODULUS_PA,
+    Steel,
     crack_spacing_m,
     mean_strain_at_rupture,
     rupture_opening_m,
     spacing_of_ratio_m,
     tensile_strength_pa,
 )
-from ...engineering.elasticity.steel_bars import MODULUS_PA, Steel
 from ...engineering.geometry.mesh import plane_cuts
 from ...engineering.geometry.own_axes import OwnAxes
 from ...engineering.geometry.vectors import AXES
 from ...engineering.structure.connections import Connections
 from ...errors import ScenarioError
 from ..bridge.member import Member, is_standing, own_axes
-from ..materials.bar_layers import BarLayer, ReinforcedSection
+from ..materials import BarLayer, ReinforcedSection
 
 
 @dataclass(frozen=True, slots=True)

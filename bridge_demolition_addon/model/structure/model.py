@@ -21,7 +21,7 @@ from ..actions import CutOfMembers, CutPlane
 from ..blast.settings import BlastSettings
 from ..bridge.member import Member, mean_density
 from ..bridge.preparation import ground_half_size, prepared_members
-from ..materials.bar_layers import BarLayer
+from ..materials import BarLayer
 from ..scenario import Geometry, Scenario
 from ..scenario.file import file_digests
 from ..scenario.scenario import no_actions

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from ...engineering.reinforced_concrete.shear import punching_n
 from ..bridge.member import Member
-from ..materials.bar_layers import BarLayer
+from ..materials import BarLayer
 from .member_layers import LayersOfMember, layers_of_members
 
 _UP = 2

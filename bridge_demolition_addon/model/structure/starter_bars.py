@@ -13,13 +13,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...engineering.elasticity.bar_rupture import mean_strain_at_rupture, tensile_strength_pa
-from ...engineering.elasticity.steel_bars import Steel
+from ...engineering.elasticity.steel_bars import Steel, mean_strain_at_rupture, tensile_strength_pa
 from ...engineering.geometry.vectors import AXES, dot
 from ...engineering.reinforced_concrete.least_areas import of_links_m2_m
 from ...engineering.reinforced_concrete.materials import Concrete
 from ..bridge.member import Member, own_axes
-from ..materials.bar_layers import BarLayer
+from ..materials import BarLayer
 from ..reinforcement.concrete_members import is_concrete, names_of_bridge
 from ..scenario import Bridge, Scenario
 from .connection_source import ConnectionRows, CutBridge
@@ -155,7 +154,7 @@ def _least(kinds: frozenset[str], compression_pa: float, steel: Steel) -> _Cross
 def _opening_m(bars: Sequence[_Crossing], compression_pa: float, steel: Steel) -> float:
     """Return the opening of one crack at which bars rupture that are anchored on both of its sides, in the mean.
 
-    They slip out of both sides as far as bond lets them: Marti et al. (1998), as in `bar_rupture`. By the bond of
+    They slip out of both sides as far as bond lets them: Marti et al. (1998), as in `steel_bars`. By the bond of
     H. Sezen and E. J. Setzler (2008), Reinforcement slip in reinforced concrete columns, ACI Structural Journal 105,
     280-289, it is up to 15 % more in concrete up to C50/60.
     """

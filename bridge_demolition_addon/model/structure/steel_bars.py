@@ -10,8 +10,7 @@ import numpy as np
 
 from ...engineering.elasticity.equilibrium import Equilibrium
 from ...engineering.geometry.vectors import dot
-from ...engineering.mechanics.section_cuts import ConnectionLoads
-from ...engineering.mechanics.section_forces import section_forces
+from ...engineering.mechanics.section_cuts import ConnectionLoads, section_forces
 from ...engineering.steelwork.bars import SteelBar
 from ...engineering.steelwork.bolted_ends import BoltedEnd
 from ...engineering.steelwork.resistance import (

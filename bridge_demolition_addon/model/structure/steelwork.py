@@ -12,10 +12,9 @@ from ...engineering.elasticity.bearings import PadSprings
 from ...engineering.fracture.shards import Fracture
 from ...engineering.fracture.shared_faces import NO_FACES, SharedFaces
 from ...engineering.geometry.vectors import dot, product
-from ...engineering.mechanics.section_forces import section_axes
+from ...engineering.mechanics.section_cuts import section_axes
 from ...engineering.steelwork.bars import SteelBar, extruded, in_other_axes, joint_stiffness
-from ...engineering.steelwork.grades import STEEL_MODULI
-from ...engineering.steelwork.resistance import plastic_second_moments, section_hinge
+from ...engineering.steelwork.resistance import STEEL_MODULI, plastic_second_moments, section_hinge
 from ...engineering.structure.connections import GROUND, Connections
 from ..bridge.member import Member, members_named
 from ..scenario.bearings import FIXED, ROCKER, UNYIELDING_MN_M

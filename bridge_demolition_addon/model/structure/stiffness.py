@@ -10,14 +10,16 @@ import numpy as np
 from ...engineering.elasticity.interfaces import shares_of_length, slips_by_stretching
 from ...engineering.elasticity.member_shapes import (
     MemberShapes,
+    contraction_shares,
     in_axes,
     member_shapes,
     moderate_second_moments,
+    plate_turning,
     principal_moments,
+    shifting_moduli,
     turning_inertias,
     turning_levers,
 )
-from ...engineering.elasticity.poisson_effect import contraction_shares, plate_turning, shifting_moduli
 from ...engineering.elasticity.section_stiffness import (
     SectionStiffness,
     section_stiffness,
@@ -25,7 +27,7 @@ from ...engineering.elasticity.section_stiffness import (
 )
 from ...engineering.geometry.vectors import dot, product, transformed
 from ...engineering.mechanics.joint import Joint
-from ...engineering.mechanics.section_forces import section_axes
+from ...engineering.mechanics.section_cuts import section_axes
 from ...engineering.structure.connections import GROUND, Connections
 from ...errors import GeometryError
 from .connection_source import CutMembers

@@ -17,10 +17,15 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...engineering.arrays import BoolArray, FloatArray, IntArray
-from ...engineering.elasticity.beam_elements import BeamSection, measured_at, web_torsion_m4
-from ...engineering.elasticity.section_stiffness import SHEAR_FACTOR, ElasticModuli
+from ...engineering.elasticity.section_stiffness import (
+    SHEAR_FACTOR,
+    BeamSection,
+    ElasticModuli,
+    measured_at,
+    web_torsion_m4,
+)
 from ...engineering.geometry.vectors import product
-from ...engineering.mechanics.section_forces import section_axes
+from ...engineering.mechanics.section_cuts import section_axes
 from ..bridge.superstructure import cast_decks
 from ..schema import given
 from .connection_source import ConnectionRows, CutBridge

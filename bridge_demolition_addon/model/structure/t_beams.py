@@ -12,7 +12,7 @@ from ...engineering.reinforced_concrete.bending import flange_width_m
 from ..bridge.layout import pier_axes
 from ..bridge.member import Member
 from ..bridge.superstructure import cast_decks
-from ..materials.bar_layers import BarLayer, ReinforcedSection
+from ..materials import BarLayer, ReinforcedSection
 from ..reinforcement.concrete_members import is_concrete
 from ..scenario import Bridge, Scenario
 from ..schema import given

@@ -8,14 +8,14 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from ...engineering.elasticity.bar_rupture import (
+from ...engineering.elasticity.crack_state import FRICTION
+from ...engineering.elasticity.steel_bars import (
+    Steel,
     mean_strain_at_rupture,
     rupture_opening_m,
     spacing_of_ratio_m,
     tensile_strength_pa,
 )
-from ...engineering.elasticity.crack_law import FRICTION
-from ...engineering.elasticity.steel_bars import Steel
 from ...engineering.elasticity.tendons import (
     MODULUS_PA,
     RUPTURE_STRAIN,
@@ -30,7 +30,7 @@ from ...engineering.geometry.turned_boxes import TurnedBox
 from ...engineering.geometry.vectors import distance, dot, points_along, transformed_back
 from ...engineering.mechanics.joint import Joint
 from ...engineering.mechanics.reinforcement import FaceBars
-from ...engineering.mechanics.section_forces import section_axes
+from ...engineering.mechanics.section_cuts import section_axes
 from ...engineering.structure.connections import Connections
 from ...errors import ScenarioError
 from ..actions import Fact

@@ -9,8 +9,7 @@ import numpy as np
 from ...engineering.elasticity.equations import connected_parts
 from ...engineering.mechanics.joint import Joint
 from ...engineering.mechanics.overloads import Overloads
-from ...engineering.mechanics.section_cuts import ConnectionLoads, worst_around
-from ...engineering.mechanics.section_forces import section_axes
+from ...engineering.mechanics.section_cuts import ConnectionLoads, section_axes, worst_around
 from .equilibrium import member_sections_of, overloads_of
 from .model import Model
 

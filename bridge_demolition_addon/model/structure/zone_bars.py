@@ -17,7 +17,7 @@ from ...engineering.elasticity.steel_bars import YIELD_PA
 from ...engineering.geometry.vectors import AXES
 from ..blast.blast_zones import M_PER_MM, BlastZone
 from ..bridge.member import Member
-from ..materials.bar_layers import BarLayer
+from ..materials import BarLayer
 from ..schema import given
 
 COVER_M = 0.05

@@ -14,15 +14,13 @@ import numpy as np
 from mathutils import Matrix, Vector
 
 from ...display.approaches import approaches
-from ...display.ball_crane import ball_cranes
 from ...display.bent_bars import bent_bars
-from ...display.breaker_excavator import breaker_excavators, excavator_parts
+from ...display.crawlers import StandingRoom, ball_cranes, breaker_excavators, excavator_parts
 from ...display.dressing import LOOKS_ONLY, DrawnPart, Stuff, joined_by_stuff, rod
 from ...display.dust import Chips, are_steel, chips_of, puffs, touchdowns
 from ...display.moved_surfaces import moved, parted
 from ...display.road_furniture import road_furniture
 from ...display.scale_bar import ScaleBar, scale_bar
-from ...display.standing_room import StandingRoom
 from ...engineering.geometry.mesh import TriangleMesh
 from ...engineering.geometry.solids import box
 from ...errors import OutputError

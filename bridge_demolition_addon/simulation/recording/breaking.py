@@ -11,7 +11,7 @@ import numpy as np
 from ...bullet.constraints import ConstraintTable
 from ...engineering.mechanics.frame_loads import Moment
 from ...engineering.mechanics.overloads import Overloads
-from ...engineering.mechanics.section_forces import SectionForces
+from ...engineering.mechanics.section_cuts import SectionForces
 from ...model.schema import given
 from .drivers import Driver, WarmUp
 from .elastic_connections import ElasticConnections

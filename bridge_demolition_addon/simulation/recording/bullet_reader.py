@@ -11,8 +11,8 @@ import numpy as np
 from ...bullet.world import BulletWorld
 from ...engineering.elasticity.crack_state import CrackAccumulator, FrameCracks
 from ...engineering.mechanics.bearing_loads import BearingAccumulator, BearingLoads, BearingPads
+from ...engineering.mechanics.carried_sections import MemberSections, kinds_of
 from ...engineering.mechanics.frame_loads import FrameLoads
-from ...engineering.mechanics.member_sections import MemberSections, kinds_of
 from ...engineering.mechanics.overloads import Overloads
 from ...engineering.mechanics.work import FrameWork, Motion, WorkAccumulator
 from ...errors import LayoutError, SimulationError

@@ -20,16 +20,17 @@ from ...engineering.elasticity.crack_state import CrackState
 from ...engineering.elasticity.cracks import Cracks, ExpectedCracks
 from ...engineering.elasticity.equations import RigidBodies, without
 from ...engineering.elasticity.equilibrium import Equilibrium, equilibrium
-from ...engineering.elasticity.inertia import effective_inverse_masses, inertia_tensors
-from ...engineering.elasticity.joint_forces import put_loads, velocities_alone
 from ...engineering.elasticity.joint_rows import (
     JointFrames,
     components_first,
     components_last,
+    effective_inverse_masses,
+    inertia_tensors,
     joint_positions,
     matrix_products,
     transposed,
 )
+from ...engineering.elasticity.kept_joints import put_loads, velocities_alone
 from ...engineering.elasticity.section_stiffness import SectionStiffness, in_frames
 from ...engineering.elasticity.structure import ElasticStep, ElasticStructure, StepInput
 from ...engineering.elasticity.substep import Places
@@ -37,7 +38,7 @@ from ...engineering.elasticity.tendons import TendonForces
 from ...engineering.foundations import Footings, SoilSprings
 from ...engineering.mechanics.crack_faces import CrackFaces, TornFaces
 from ...engineering.mechanics.reinforcement import FaceBars
-from ...engineering.mechanics.section_forces import section_axes
+from ...engineering.mechanics.section_cuts import section_axes
 from ...model.results.frames import Inventory
 from ...model.schema import given
 from ...model.structure.tendons import ModelTendons

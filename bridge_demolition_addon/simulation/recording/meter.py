@@ -13,7 +13,7 @@ from ...bullet.world import BulletWorld
 from ...engineering.geometry.vectors import axes_in_bodies, carried_axes, transformed, transformed_back
 from ...engineering.mechanics.carried_sections import CarriedSections
 from ...engineering.mechanics.frame_loads import Moment, SubstepLoads
-from ...engineering.mechanics.section_forces import SectionForces, section_axes, section_forces
+from ...engineering.mechanics.section_cuts import SectionForces, section_axes, section_forces
 from ...model.results.frames import Inventory
 from .elastic_connections import ElasticConnections, ElasticEnergy
 

@@ -4,7 +4,7 @@
 import numpy as np
 import pytest
 
-from bridge_demolition_addon.engineering.elasticity.anchorage import anchorage_length_m, anchored_shares
+from bridge_demolition_addon.engineering.elasticity.steel_bars import anchorage_length_m, anchored_shares
 
 
 def test_length_by_hand():

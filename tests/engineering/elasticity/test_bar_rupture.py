@@ -3,13 +3,14 @@
 
 import pytest
 
-from bridge_demolition_addon.engineering.elasticity.bar_rupture import (
+from bridge_demolition_addon.engineering.elasticity.steel_bars import (
+    MODULUS_PA,
+    Steel,
     crack_spacing_m,
     mean_strain_at_rupture,
     rupture_opening_m,
     tensile_strength_pa,
 )
-from bridge_demolition_addon.engineering.elasticity.steel_bars import MODULUS_PA, Steel
 
 CLASS_B = Steel(500e6, 1.08, 0.05)
 

@@ -4,8 +4,12 @@
 import numpy as np
 import pytest
 
-from bridge_demolition_addon.engineering.elasticity.beam_elements import BeamSection, measured_at, web_torsion_m4
-from bridge_demolition_addon.engineering.elasticity.section_stiffness import ElasticModuli
+from bridge_demolition_addon.engineering.elasticity.section_stiffness import (
+    BeamSection,
+    ElasticModuli,
+    measured_at,
+    web_torsion_m4,
+)
 
 CONCRETE = ElasticModuli(34e9, 0.2)
 

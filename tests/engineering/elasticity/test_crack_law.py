@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from support.core_terms import forces_and_tangents, term_of_law
 
-from bridge_demolition_addon.engineering.elasticity.crack_law import DOWEL_SHARE, FRICTION, SHEARED
+from bridge_demolition_addon.engineering.elasticity.crack_state import DOWEL_SHARE, FRICTION, SHEARED
 from bridge_demolition_addon.engineering.elasticity.steel_bars import Bars, Steel
 from bridge_demolition_addon.engineering.elasticity.substep import CRACKS
 

@@ -4,7 +4,7 @@
 import numpy as np
 import pytest
 
-from bridge_demolition_addon.engineering.elasticity.crack_law import FRICTION
+from bridge_demolition_addon.engineering.elasticity.crack_state import FRICTION
 from bridge_demolition_addon.engineering.elasticity.cracked_equilibrium import BuiltStructure, CrackedStructure
 from bridge_demolition_addon.engineering.elasticity.cracks import Cracks, corner_positions
 from bridge_demolition_addon.engineering.elasticity.equations import RigidBodies

@@ -4,8 +4,11 @@
 import numpy as np
 import pytest
 
-from bridge_demolition_addon.engineering.elasticity.inertia import effective_inverse_masses, inertia_tensors
-from bridge_demolition_addon.engineering.elasticity.joint_rows import JointRows
+from bridge_demolition_addon.engineering.elasticity.joint_rows import (
+    JointRows,
+    effective_inverse_masses,
+    inertia_tensors,
+)
 
 MASS_KG, SIDES_M = 12.0, np.array([3.0, 2.0, 1.0])
 OF_A_BOX = MASS_KG / 12.0 * (np.sum(SIDES_M**2) - SIDES_M**2)

@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 
 from bridge_demolition_addon.engineering.elasticity.equations import spring_forces
-from bridge_demolition_addon.engineering.elasticity.joint_forces import put_loads, stored_energies, velocities_alone
 from bridge_demolition_addon.engineering.elasticity.joint_rows import JointFrames, joint_positions
+from bridge_demolition_addon.engineering.elasticity.kept_joints import put_loads, stored_energies, velocities_alone
 from bridge_demolition_addon.engineering.elasticity.substep import Frames, Places, deformations
 from bridge_demolition_addon.engineering.geometry.vectors import rotated
 

@@ -4,9 +4,9 @@
 import numpy as np
 import pytest
 
-from bridge_demolition_addon.engineering.elasticity.member_shapes import member_shapes
-from bridge_demolition_addon.engineering.elasticity.poisson_effect import (
+from bridge_demolition_addon.engineering.elasticity.member_shapes import (
     contraction_shares,
+    member_shapes,
     plate_turning,
     shifting_moduli,
 )

@@ -4,7 +4,7 @@
 import numpy as np
 import pytest
 
-from bridge_demolition_addon.engineering.elasticity.sparse_system import BlockSystem
+from bridge_demolition_addon.engineering.elasticity.equations import BlockSystem
 
 BODIES, CONNECTIONS = 12, 40
 

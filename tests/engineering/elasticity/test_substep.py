@@ -13,13 +13,16 @@ from support.core_terms import forces_and_tangents, term_of_law
 
 from bridge_demolition_addon.engineering.drilled_charges.cages import BareBars, Cages
 from bridge_demolition_addon.engineering.elasticity.bearings import Bearings, PadSprings
-from bridge_demolition_addon.engineering.elasticity.crack_law import DOWEL_SHARE, SHEARED
+from bridge_demolition_addon.engineering.elasticity.crack_state import DOWEL_SHARE, SHEARED
 from bridge_demolition_addon.engineering.elasticity.cracks import Cracks, ExpectedCracks, corner_positions
 from bridge_demolition_addon.engineering.elasticity.equations import RigidBodies
-from bridge_demolition_addon.engineering.elasticity.inertia import effective_inverse_masses
-from bridge_demolition_addon.engineering.elasticity.joint_rows import JointFrames, JointPositions, joint_positions
-from bridge_demolition_addon.engineering.elasticity.spring_law import PressedSprings
-from bridge_demolition_addon.engineering.elasticity.springs import SpringPositions
+from bridge_demolition_addon.engineering.elasticity.joint_rows import (
+    JointFrames,
+    JointPositions,
+    effective_inverse_masses,
+    joint_positions,
+)
+from bridge_demolition_addon.engineering.elasticity.springs import PressedSprings, SpringPositions
 from bridge_demolition_addon.engineering.elasticity.steel_bars import Bars, Steel
 from bridge_demolition_addon.engineering.elasticity.structure import ElasticStructure, StepInput
 from bridge_demolition_addon.engineering.elasticity.substep import CRACKS, SPRINGS, Frames, Places

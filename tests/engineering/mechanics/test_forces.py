@@ -6,7 +6,7 @@ import pytest
 
 from bridge_demolition_addon.engineering.geometry.vectors import carried_points
 from bridge_demolition_addon.engineering.mechanics.carried_sections import CarriedSections
-from bridge_demolition_addon.engineering.mechanics.forces import PairSums
+from bridge_demolition_addon.engineering.mechanics.stress import PairSums
 
 NO_PAIRS, NO_VECTORS = np.zeros((0, 2), int), np.zeros((0, 3))
 

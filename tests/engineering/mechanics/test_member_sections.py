@@ -11,11 +11,15 @@ from support.long_cases import long_but
 from bridge_demolition_addon.engineering.elasticity.section_stiffness import ElasticModuli
 from bridge_demolition_addon.engineering.fracture.shards import fracture
 from bridge_demolition_addon.engineering.geometry.solids import box
+from bridge_demolition_addon.engineering.mechanics.carried_sections import SPREAD, MemberSections, kinds_of
 from bridge_demolition_addon.engineering.mechanics.joint import Joint
-from bridge_demolition_addon.engineering.mechanics.member_sections import SPREAD, MemberSections, kinds_of
 from bridge_demolition_addon.engineering.mechanics.overloads import Overloads
-from bridge_demolition_addon.engineering.mechanics.section_cuts import ConnectedFaces, ConnectionLoads
-from bridge_demolition_addon.engineering.mechanics.section_forces import SectionForces, section_axes
+from bridge_demolition_addon.engineering.mechanics.section_cuts import (
+    ConnectedFaces,
+    ConnectionLoads,
+    SectionForces,
+    section_axes,
+)
 from bridge_demolition_addon.engineering.mechanics.strength import Strength
 from bridge_demolition_addon.engineering.structure.connections import (
     Connections,

@@ -10,9 +10,9 @@ from bridge_demolition_addon.engineering.mechanics.section_cuts import (
     ConnectedFaces,
     ConnectionLoads,
     SectionCuts,
+    section_axes,
     worst_around,
 )
-from bridge_demolition_addon.engineering.mechanics.section_forces import section_axes
 from bridge_demolition_addon.engineering.mechanics.strength import Strength, rectangular_sections, utilisation
 
 NORMALS = np.tile([1.0, 0.0, 0.0], (3, 1))

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from bridge_demolition_addon.engineering.geometry.vectors import axes_in_bodies, carried_axes
-from bridge_demolition_addon.engineering.mechanics.section_forces import section_axes, section_forces
+from bridge_demolition_addon.engineering.mechanics.section_cuts import section_axes, section_forces
 
 
 def rotation(axis, angle):

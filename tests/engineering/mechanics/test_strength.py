@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from reference import strength as reference
 
-from bridge_demolition_addon.engineering.mechanics.section_forces import SectionForces
+from bridge_demolition_addon.engineering.mechanics.section_cuts import SectionForces
 from bridge_demolition_addon.engineering.mechanics.strength import (
     MATERIALS,
     Ductility,

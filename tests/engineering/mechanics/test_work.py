@@ -4,7 +4,7 @@
 import numpy as np
 import pytest
 
-from bridge_demolition_addon.engineering.mechanics.forces import PairSums
+from bridge_demolition_addon.engineering.mechanics.stress import PairSums
 from bridge_demolition_addon.engineering.mechanics.work import FrameWork, Motion, PairImpulses, WorkAccumulator
 
 GRAVITY = np.array([0.0, 0.0, -9.81])

@@ -11,7 +11,7 @@ from bridge_demolition_addon.engineering.reinforced_concrete.bending import (
     tension_steel,
 )
 from bridge_demolition_addon.engineering.reinforced_concrete.materials import GRADES, Concrete, design_yield_pa
-from bridge_demolition_addon.model.materials.bar_layers import ReinforcedSection
+from bridge_demolition_addon.model.materials import ReinforcedSection
 
 C35 = Concrete(35e6)
 YIELD = 500e6 / 1.15

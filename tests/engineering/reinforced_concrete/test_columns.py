@@ -12,7 +12,7 @@ from bridge_demolition_addon.engineering.reinforced_concrete.least_areas import 
     row_depth_m,
 )
 from bridge_demolition_addon.engineering.reinforced_concrete.materials import Concrete
-from bridge_demolition_addon.model.materials.bar_layers import ReinforcedSection
+from bridge_demolition_addon.model.materials import ReinforcedSection
 
 YIELD = 500e6 / 1.15
 SECTION = ColumnSection(0.5, 0.4, 0.05, Concrete(30e6), YIELD)

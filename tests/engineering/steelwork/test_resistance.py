@@ -4,7 +4,7 @@
 import numpy as np
 import pytest
 
-from bridge_demolition_addon.engineering.mechanics.section_forces import SectionForces
+from bridge_demolition_addon.engineering.mechanics.section_cuts import SectionForces
 from bridge_demolition_addon.engineering.mechanics.strength import rectangular_sections, utilisation
 from bridge_demolition_addon.engineering.steelwork.catalogue import section_named
 from bridge_demolition_addon.engineering.steelwork.resistance import (

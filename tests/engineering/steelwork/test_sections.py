@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from bridge_demolition_addon.engineering.steelwork.catalogue import rolled_names, section_named
-from bridge_demolition_addon.engineering.steelwork.grades import DENSITY_KG_M3, strengths_pa
+from bridge_demolition_addon.engineering.steelwork.resistance import DENSITY_KG_M3, strengths_pa
 from bridge_demolition_addon.errors import ScenarioError
 
 pytestmark = pytest.mark.slow

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from bridge_demolition_addon.errors import ScenarioError
-from bridge_demolition_addon.model.materials.bar_layers import BarLayer, ReinforcedSection
+from bridge_demolition_addon.model.materials import BarLayer, ReinforcedSection
 
 LAYER = {"members": ("deck",), "depth_m": 0.05, "area_mm2": 1000.0}
 

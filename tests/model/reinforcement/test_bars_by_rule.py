@@ -13,7 +13,7 @@ from support.checkout import ROOT
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.bridge.preparation import prepared_members
-from bridge_demolition_addon.model.materials.bar_layers import ReinforcedSection
+from bridge_demolition_addon.model.materials import ReinforcedSection
 from bridge_demolition_addon.model.reinforcement import design
 from bridge_demolition_addon.model.reinforcement.design import all_layers, bar_schedule
 from bridge_demolition_addon.model.reinforcement.schedule import schedule_facts

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from support.arches_and_frames import FRAME, FRAME_SPANS, WEIGHT_N_M3, scenario_of
 
-from bridge_demolition_addon.model.materials.bar_layers import ReinforcedSection
+from bridge_demolition_addon.model.materials import ReinforcedSection
 from bridge_demolition_addon.model.stages.stability import STANDS, stability_of
 from bridge_demolition_addon.model.structure.model import build_model
 

@@ -12,7 +12,7 @@ from bridge_demolition_addon.engineering.geometry.solids import box, cylinder
 from bridge_demolition_addon.errors import GeometryError, ScenarioError
 from bridge_demolition_addon.model.bridge.member import Member
 from bridge_demolition_addon.model.changes.change import schedule
-from bridge_demolition_addon.model.materials.bar_layers import BarLayer
+from bridge_demolition_addon.model.materials import BarLayer
 from bridge_demolition_addon.model.scenario import Support
 from bridge_demolition_addon.model.scenario.fracture import FracturePoint
 from bridge_demolition_addon.model.sequence.checked_model import check_actions

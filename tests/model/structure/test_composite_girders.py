@@ -29,7 +29,7 @@ from support.long_cases import long_but
 from support.steelwork import bar_loads
 
 from bridge_demolition_addon.engineering.steelwork.catalogue import section_named
-from bridge_demolition_addon.engineering.steelwork.grades import DENSITY_KG_M3
+from bridge_demolition_addon.engineering.steelwork.resistance import DENSITY_KG_M3
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.scenario.scenario import studs_of

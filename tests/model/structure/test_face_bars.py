@@ -10,7 +10,7 @@ from support.scenarios import I235
 
 from bridge_demolition_addon.engineering.elasticity.steel_bars import Steel
 from bridge_demolition_addon.engineering.geometry.vectors import transformed
-from bridge_demolition_addon.engineering.mechanics.section_forces import section_axes
+from bridge_demolition_addon.engineering.mechanics.section_cuts import section_axes
 from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.scenario import BarLayer, ConnectionSettings
 from bridge_demolition_addon.model.structure.member_layers import layers_of_members

@@ -8,7 +8,7 @@ import pytest
 from support.bridges_by_rule import CAPS, bridge, scenario
 
 from bridge_demolition_addon.engineering.geometry.vectors import transformed
-from bridge_demolition_addon.engineering.mechanics.section_forces import section_axes
+from bridge_demolition_addon.engineering.mechanics.section_cuts import section_axes
 from bridge_demolition_addon.model.scenario import BarLayer, Deck, FractureSettings, Piers
 from bridge_demolition_addon.model.structure.member_layers import layers_of_members
 from bridge_demolition_addon.model.structure.model import build_model

@@ -16,7 +16,7 @@ from beams import Beam
 
 from bridge_demolition_addon.engineering.elasticity.steel_bars import USUAL_STEEL
 from bridge_demolition_addon.engineering.geometry.vectors import transformed
-from bridge_demolition_addon.engineering.mechanics.section_forces import section_axes
+from bridge_demolition_addon.engineering.mechanics.section_cuts import section_axes
 from bridge_demolition_addon.engineering.mechanics.strength import MATERIALS
 from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.bridge.mesh_files import exported

@@ -9,7 +9,7 @@ import pytest
 from support.steelwork import bar, node, rest_under, steel_scenario
 
 from bridge_demolition_addon.engineering.steelwork.catalogue import section_named
-from bridge_demolition_addon.engineering.steelwork.grades import DENSITY_KG_M3
+from bridge_demolition_addon.engineering.steelwork.resistance import DENSITY_KG_M3
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.model.structure.cracking import CrackedBridge
 from bridge_demolition_addon.model.structure.equilibrium import model_at_rest

@@ -18,8 +18,7 @@ from support.steelwork import (
 )
 
 from bridge_demolition_addon.engineering.steelwork.catalogue import section_named
-from bridge_demolition_addon.engineering.steelwork.grades import DENSITY_KG_M3
-from bridge_demolition_addon.engineering.steelwork.resistance import lateral_buckling
+from bridge_demolition_addon.engineering.steelwork.resistance import DENSITY_KG_M3, lateral_buckling
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.errors import GeometryError, ScenarioError
 from bridge_demolition_addon.model.structure.equilibrium import (

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
-from bridge_demolition_addon.model.materials.bar_layers import ReinforcedSection
+from bridge_demolition_addon.model.materials import ReinforcedSection
 from bridge_demolition_addon.model.scenario.file import scenario_from_text
 from bridge_demolition_addon.model.stages.standing import RESISTANCE, StandingBridge, most_used_of
 from bridge_demolition_addon.model.structure.facts import connection_facts

@@ -145,8 +145,7 @@ def test_railings_and_markings_stand_on_the_deck_and_go_with_its_shards(ran):
 
 
 def test_a_ball_hangs_on_a_rope_all_the_time(blender, tmp_path):
-    from bridge_demolition_addon.display.ball_crane import ball_cranes
-    from bridge_demolition_addon.display.standing_room import StandingRoom
+    from bridge_demolition_addon.display.crawlers import StandingRoom, ball_cranes
     from bridge_demolition_addon.simulation.run import run_scenario
 
     run_scenario(BALL, tmp_path / "run", overwrite=False, pictures=False, progress=Silence())

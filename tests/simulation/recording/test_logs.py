@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from support.sample_results import FRAME_S, G, changed, hanging_chain, without_connections
 
-from bridge_demolition_addon.engineering.mechanics.section_forces import SectionForces
+from bridge_demolition_addon.engineering.mechanics.section_cuts import SectionForces
 from bridge_demolition_addon.model.run_folder.logs import (
     BREAKING_TABLE,
     DEBRIS_TABLE,

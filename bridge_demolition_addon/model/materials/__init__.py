@@ -1,1 +1,0 @@
-"""Materials and reinforcement as the user gives them."""
