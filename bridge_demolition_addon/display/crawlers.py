@@ -1,4 +1,4 @@
-"""Machines on crawlers beside a bridge: crane of a ball, excavator of a jackhammer, where they cut nothing; for looks."""
+"""Crawlers beside a bridge: the crane of a ball, the excavator of a jackhammer, where they cut nothing; for looks only."""
 
 from __future__ import annotations
 
