@@ -1,4 +1,4 @@
-"""Crawlers beside a bridge: the crane of a ball, the excavator of a jackhammer, where they cut nothing; for looks only."""
+"""Crawlers beside a bridge: the crane of a ball, the excavator of a jackhammer, where they cut nothing; for looks."""
 
 from __future__ import annotations
 

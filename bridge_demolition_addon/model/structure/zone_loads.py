@@ -15,7 +15,7 @@ from ...engineering.mechanics.section_cuts import ConnectionLoads
 from ...engineering.units import STANDARD_GRAVITY_M_S2
 from ..actions import Fact
 from ..blast.blast_zones import BlastZone
-from ..materials.materials import strengths
+from ..materials import strengths
 from ..reinforcement.concrete_members import material_of
 from ..scenario import Scenario
 from ..schema import given
