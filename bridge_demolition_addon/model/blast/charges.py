@@ -1,7 +1,5 @@
 """Charges, the TNT equivalents of explosives, and where a new charge is put at a pier."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Which shards are connected, how, what breaks a connection, and what it is to the solver."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import astuple, dataclass, replace
 from typing import ClassVar, Self
@@ -209,7 +207,7 @@ class ConnectionSettings(JointSettings):
         )
 
     @property
-    def tables(self) -> tuple[ConnectionSettings | ConnectionBetween, ...]:
+    def tables(self) -> "tuple[ConnectionSettings | ConnectionBetween, ...]":
         return (self, *self.between)
 
     @property
