@@ -77,8 +77,10 @@ def test_each_name_that_is_found_leads_back_to_the_same_value():
 
 def test_tables_of_one_name_are_told_apart_by_their_numbers():
     machines = tuple(
-        Equipment(name=name, mass_kg=30_000, position_m=(5, 0), footprint_m=(4, 3))
-        for name in ("breaker", "breaker", "crane")
+        Equipment(
+            name=name, mass_kg=30_000, position_m=(5, 0), footprint_m=(4, 3), from_s=since_s, until_s=since_s + 1.0
+        )
+        for since_s, name in enumerate(("breaker", "breaker", "crane"))
     )
     found = keys_named(replace(I235, equipment=machines), "equipment.mass_kg")
     assert [key.name for key in found] == ["equipment.1.mass_kg", "equipment.2.mass_kg", "equipment.crane.mass_kg"]
