@@ -154,14 +154,14 @@ _WORDS = {
         r"|entretoise|\briostra|diafragma|traverso|dwarsdrager|tvärbalk"
     ),
     "pier cap": (
-        r"(pier|bent) ?cap|cap ?beam|cross ?head|hammer ?head|head ?stock|\brigel|pfeilerkopf|querriegel|chevêtre"
-        r"|cabezal|\bdintel|pulvino"
+        r"(pier|bent) ?cap|cap ?beam|cross ?head|hammer ?head|head ?stock|\brigel|pfeilerkopf|querriegel|querhaupt"
+        r"|\briegel|chevêtre|cabezal|\bdintel|pulvino"
     ),
     "footing": (
         r"footing|foundation|pile ?cap|base ?slab|fundament|\bsåle|semelle|fondation|zapata|cimentaci[oó]n|encepado"
         r"|plinto|fondazion|zattera|fundering|\bpoer|bottenplatta|grundplatta"
     ),
-    "abutment": r"abutment|back ?wall|landkar|widerlager|cul[eé]e|estribo|\bspall[ae]\b|landhoofd|landfäste",
+    "abutment": r"abutment|\babut|back ?wall|landkar|widerlager|cul[eé]e|estribo|\bspall[ae]\b|landhoofd|landfäste",
     "parapet": (
         r"parapet|edge ?beam|kantdrager|kantbjelke|kantbalk|\bkappe|randelement|schampkant|corniche|imposta|cordolo"
     ),
@@ -178,7 +178,7 @@ _WORDS = {
     "girder": (r"girder|\bbeam|stringer|bjelke|träger|poutre|\bvigas?\b|\btrav[ei]\b|\bligger|huvudbalk|\bbalk"),
     "deck": (
         r"\bdeck|\bslab|superstructure|brudekke|brodekke|bruplate|overbygning|überbau|fahrbahn|tablier|hourdis|tablero"
-        r"|\blosa|impalcato|soletta|brugdek|rijdek|brobane|farbana|överbyggnad"
+        r"|\blosa|impalcato|soletta|brugdek|rijdek|broban[ae]|farbana|överbyggnad"
     ),
 }
 """Words in names, in English, Norwegian, German, French, Spanish, Italian, Dutch and Swedish; the first kind counts."""

@@ -22,7 +22,7 @@ MORE_WORDS = {
         r"|szárnyfal|翼墙|翼牆|翼壁|ウイング|날개벽"
     ),
     "bearing": (
-        r"aparelhos? de apoio|łożysk|ložisk|\b(bro)?lejer\b|laakeri|опорн\w+ част|\bležaj|mesnet"
+        r"aparelhos? de apoio|łożysk|ložisk|\b(bro)?leje[rt]?\b|laakeri|опорн\w+ част|\bležaj|mesnet"
         r"|\bsaru\b|支座|支承|교좌|받침"
     ),
     "cross girder": (
@@ -31,7 +31,7 @@ MORE_WORDS = {
         r"|enleme|kereszttartó|横梁|橫梁|横隔|橫隔|横桁|가로보"
     ),
     "pier cap": (
-        r"capitel|oczep|úložný práh|overligger|tukipalk|\bригел|насадк|naglavn|başl[ıi]k kiriş"
+        r"capitel|\btravessa|oczep|úložný práh|overligger|tukipalk|\bригел|насадк|naglavn|başl[ıi]k kiriş"
         r"|fejgerenda|盖梁|蓋梁|帽梁"
         r"|橋脚梁|코핑|두부보"
     ),
@@ -53,21 +53,21 @@ MORE_WORDS = {
     ),
     "pier": (
         r"\bfilar|\bsłup|podpor|pilíř|\bsloup|\bpille|søjle|välituki|\bpilari|pylvä|\bопор|\bколонн"
-        r"|\bstup|orta ?ayak"
+        r"|стойк|\bcoluna|\bstup|\bayak\b|\bayağ[ıi]"
         r"|\bkolon|pillér|oszlop|桥墩|橋墩|墩柱|墩身|橋脚|柱|교각|기둥"
     ),
     "bracing": (
         r"contraventamento|st[eę]żen|ztuž|vindkryds|tuuliside|vinoside|\bсвяз[ьи]|раскос|\bspreg|çapraz"
-        r"|szélrács"
+        r"|szélrács|\brács|vinosit|横撑|橫撐|가새"
         r"|横联|橫聯|平联|联结系|横構|対傾構|브레이싱"
     ),
     "girder": (
-        r"longarina|d[źz]wigar|\bbelk|nosník|\btrám|\bdrager|bjælke|palkki|kannatin|\bбалк|nosač"
+        r"longarina|d[źz]wigar|\bbelk|nosník|\btrám|drager|bjælke|palkki|kannatin|kannattaj|\bбалк|nosač"
         r"|\bgred[ae]|kiriş"
         r"|gerenda|főtartó|梁|桁|거더|주형"
     ),
     "deck": (
-        r"tabuleiro|\blaje|\bpłyt|pomost|mostovk|\bdeska|brodæk|broplade|\bkansi|laatta|\bплит"
+        r"tabuleiro|\blaje|\bpłyt|pomost|mostovk|\bdeska|brodæk|\bdækplade|broplade|\bkansi|laatta|\bплит"
         r"|прол[её]тн\w+ строен|kolnička"
         r"|\bploča|tabliye|döşeme|pályalemez|桥面|橋面|床版|바닥판|슬래브|상판"
     ),

@@ -162,7 +162,17 @@ def test_a_kind_that_there_is_not():
         *(("Upornjak", "abutment"), ("Stupište", "pier"), ("Glavni nosač", "girder"), ("Temelj", "footing")),
         *(("Kenar Ayak", "abutment"), ("BAŞLIK KİRİŞİ", "pier cap"), ("Tabliye", "deck"), ("Mesnet", "bearing")),
         *(("Hídfő", "abutment"), ("Főtartó", "girder"), ("Pályalemez", "deck"), ("Szárnyfal", "wing wall")),
+        *(("Hoveddrager 1", "girder"), ("Tværdrager", "girder"), ("Pääkannattaja", "girder"), ("Стойка", "pier")),
+        *(
+            ("Orta ayak 2", "pier"),
+            ("Coluna", "pier"),
+            ("Travessa", "pier cap"),
+            ("横撑", "bracing"),
+            ("가새", "bracing"),
+        ),
+        *(("Querhaupt", "pier cap"), ("Brobana", "deck"), ("Leje", "bearing")),
         # English
+        *(("Abut1", "abutment"), ("ABUT_B", "abutment")),
         *(("MyBeam", "girder"), ("BoxBeam_01", "girder"), ("EndPier", "pier"), ("MainDeck", "deck")),
         *(("CrossBrace", "bracing"), ("PierCapNorth", "pier cap"), ("LHSAbutment", "abutment")),
         *(
