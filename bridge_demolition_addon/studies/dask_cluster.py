@@ -117,21 +117,27 @@ class DaskCluster:
             raise SimulationError(f"{self._address}: {_GONE}") from error
         finally:
             future.release()
-        with writing(task.folder):
-            if task.folder.exists():  # of a run that was simulated here before
-                shutil.rmtree(task.folder)
-            for name, content in files.items():
-                path = task.folder / name
-                if not path.resolve().is_relative_to(task.folder.resolve()):
-                    raise SimulationError(f"{self._address}: a worker returned a file {name!r}: do not trust it")
-                path.parent.mkdir(parents=True, exist_ok=True)
-                path.write_bytes(content)
+        put_returned(task.folder, files, self._address)
         return outcome
 
     def _thread_count(self) -> int:
         if time.monotonic() - self._counted_s >= _COUNT_EVERY_S:
             self._threads, self._counted_s = sum(self._client.nthreads().values()), time.monotonic()
         return self._threads
+
+
+def put_returned(folder: Path, files: Mapping[str, bytes], address: str) -> None:
+    """Write the files of a run that a worker returned, in place of any before, none of them outside of its folder."""
+    paths = {name: folder / name for name in files}
+    for name, path in paths.items():
+        if not path.resolve().is_relative_to(folder.resolve()):
+            raise SimulationError(f"{address}: a worker returned a file {name!r}: do not trust it")
+    with writing(folder):
+        if folder.exists():  # of a run that was simulated here before
+            shutil.rmtree(folder)
+        for name, path in paths.items():
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_bytes(files[name])
 
 
 def _versions_here() -> dict[str, str]:

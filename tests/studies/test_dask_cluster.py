@@ -16,7 +16,7 @@ from support.study_files import study_file, tables_in
 
 from bridge_demolition_addon.errors import SimulationError
 from bridge_demolition_addon.model.study.file import read_study
-from bridge_demolition_addon.studies.dask_cluster import DaskCluster
+from bridge_demolition_addon.studies.dask_cluster import DaskCluster, put_returned
 from bridge_demolition_addon.studies.engine import LocalProcesses
 from bridge_demolition_addon.studies.run_process import RunLimits
 from bridge_demolition_addon.studies.session import EnsembleSession
@@ -156,3 +156,19 @@ def test_blender_runs_on_the_workers(cluster, tmp_path, capsys):
     assert call_bda(capsys, "study", study, "--output", tmp_path / "near", "--quiet") == (0, "", "")
     assert tables_in(tmp_path / "far") == tables_in(tmp_path / "near")
     assert len(list((tmp_path / "far").glob("draws/*/outlines.npz"))) == 1
+
+
+@pytest.mark.parametrize("name", ["../outside.txt", "/outside.txt", "frames/../../outside.txt", "link/outside.txt"])
+def test_no_file_of_a_worker_is_written_outside_of_the_run_s_folder(tmp_path, name):
+    folder = tmp_path / "run_00001"
+    folder.mkdir()
+    (folder / "kept.txt").write_text("of before")
+    (folder / "link").symlink_to(tmp_path, target_is_directory=True)
+    with pytest.raises(
+        SimulationError, match=r"tcp://there: a worker returned a file '.*outside.txt': do not trust it"
+    ):
+        put_returned(folder, {"summary.json": b"{}", name: b"x"}, "tcp://there")
+    assert [path.name for path in tmp_path.iterdir()] == ["run_00001"]
+    assert (folder / "kept.txt").read_text() == "of before"
+    put_returned(folder, {"summary.json": b"{}", "frames/1.png": b"x"}, "tcp://there")
+    assert sorted(path.name for path in folder.rglob("*")) == ["1.png", "frames", "summary.json"]
