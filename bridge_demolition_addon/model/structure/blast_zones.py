@@ -367,8 +367,9 @@ def zone_totals(zones: Sequence[PlacedZone], members: Sequence[Member]) -> Itera
     if not lowest <= rate <= highest:
         yield "look at", f"{rate:.1f} g/t are outside {lowest:g} to {highest:g}, which all recorded jobs are within"
     yield "", "charges are fixed by test shots and a licensed blaster"
-    if any(placed.effect == Effect.THROWN for placed in zones):
+    if any(placed.effect == Effect.THROWN and placed.zone.along == "z" for placed in zones):
         yield (
-            "",
-            "landings are bounds by energy of one shaft with flat ends, which no test of a blasted column confirms",
+            "look at",
+            "what lands is by energy of one shaft with flat ends, and no test of a blasted column confirms it;",
         )
+        yield "", "a run can bring down what stands by that, as a shaft breaks there wherever its shards meet"

@@ -13,7 +13,7 @@ from bridge_demolition_addon.model.bridge.member import Member
 from bridge_demolition_addon.model.scenario import Support
 from bridge_demolition_addon.model.sequence.checked_model import ModelWorksite
 from bridge_demolition_addon.model.stages.stability import Stability, stability_of
-from bridge_demolition_addon.model.structure.blast_zones import placed_zone
+from bridge_demolition_addon.model.structure.blast_zones import placed_zone, zone_totals
 from bridge_demolition_addon.model.structure.model import build_model
 from bridge_demolition_addon.model.structure.zone_loads import ZoneLoad, load_facts, zone_falls
 
@@ -60,6 +60,11 @@ def test_check_says_what_its_bars_hold_and_that_it_can_land_and_stand(tmp_path):
         "where it lands on an edge and nothing holds its head it can tip over: that takes a fall of 1.06 m",
     ]
     assert "what it carries at rest is not known by statics" in texts(scenario, model, ())
+    whole, level = (
+        replace(placed_zone(ZONE, column_members()), zone=replace(ZONE, along=along, side="right")) for along in "zx"
+    )
+    totals = [dict(zone_totals([placed], column_members())) for placed in (whole, level)]
+    assert ["look at" in total and "what lands" in total["look at"] for total in totals] == [True, False]
     misfire = replace(scenario, blast_zones=(replace(ZONE, fires=False),))
     assert texts(misfire, model, (ZoneLoad("zone", 521e3, 0.0, 0.0),))[-1] == "pressed with 0.52 MN at rest"
 
