@@ -7,6 +7,7 @@ A release is what its tag says: the commit `vVERSION` and nothing else.
 
 import argparse
 import hashlib
+import os
 import shutil
 import subprocess
 import sys
@@ -26,6 +27,9 @@ ROOT = Path(__file__).resolve().parent.parent
 SOURCES = ("bridge_demolition_addon", "core", "LICENSE", "MANIFEST.in", "README.md", "pyproject.toml")
 """What the package is built from."""
 
+TRANSLATIONS = ("tests/report/languages/test_nothing_is_missing.py", "tests/ui/languages/test_tables.py")
+"""Tests that find texts without a translation: elsewhere they only warn."""
+
 CHECKSUMS = "SHA256SUMS"
 SHOWN = 3
 """Changed files that a message names."""
@@ -42,6 +46,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         if not options.draft:
             refuse_what_is_not_tagged(ROOT, VERSION)
+            refuse_what_is_not_translated(ROOT)
         elif folder.exists():
             shutil.rmtree(folder)
         build(folder, options.platform)
@@ -92,6 +97,14 @@ def refuse_what_is_not_tagged(root: Path, version: str) -> None:
         raise ReleaseError(f"{tag} is commit {tagged[:8]}, and this is {head[:8]}: use git checkout {tag}, or --draft")
     if f"\n## {version} " not in (root / "CHANGELOG.md").read_text(encoding="utf-8"):
         raise ReleaseError(f"CHANGELOG.md has no section {version}: expected a line such as ## {version} - 2026-01-31")
+
+
+def refuse_what_is_not_translated(root: Path) -> None:
+    """Raise if a text of reports or of the window has no translation in one of the languages."""
+    command = (sys.executable, "-m", "pytest", "-q", *TRANSLATIONS)
+    done = subprocess.run(command, cwd=root, env=os.environ | {"BDA_RELEASE": "1"}, capture_output=True, text=True)
+    if done.returncode:
+        raise ReleaseError(f"texts lack translations, or cannot be compared with them:\n{done.stdout}{done.stderr}")
 
 
 def git(root: Path, *arguments: str) -> str:

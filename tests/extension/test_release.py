@@ -214,6 +214,19 @@ def test_a_folder_without_git_is_refused(tmp_path: Path) -> None:
     assert refusal(tmp_path, "1.2.0").startswith("git status says: ")
 
 
+@pytest.mark.parametrize("is_translated", [True, False])
+def test_a_release_refuses_what_only_warns_elsewhere(tmp_path: Path, is_translated: bool) -> None:
+    for name in release.TRANSLATIONS:
+        (tmp_path / name).parent.mkdir(parents=True)
+        asked = f"import os\n\ndef test_texts():\n    assert os.environ['BDA_RELEASE'] and {is_translated}\n"
+        (tmp_path / name).write_text(asked, encoding="utf-8")
+    if is_translated:
+        release.refuse_what_is_not_translated(tmp_path)
+    else:
+        with pytest.raises(release.ReleaseError, match="texts lack translations"):
+            release.refuse_what_is_not_translated(tmp_path)
+
+
 def test_part_of_the_systems_is_no_release(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit):
         release.main(["--platform", "linux-x64"])

@@ -8,6 +8,7 @@ from functools import cache
 
 import pytest
 from support.checkout import ROOT
+from support.untranslated import warn_of
 from window_languages import differences, put_together, texts_in, window_texts
 
 from bridge_demolition_addon.ui.languages import tables
@@ -40,11 +41,11 @@ def test_german_spanish_french_and_chinese_are_there():
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
-def test_no_label_and_no_sentence_is_missing_and_nothing_is_stale(texts, language):
+def test_no_label_and_no_sentence_is_missing_in_a_release_and_nothing_is_stale(texts, language):
     for part in PARTS:
         missing, stale = differences(getattr(table(language), part), getattr(texts, part))
         assert stale == [], f"{part} of {language} that the window does not show (any more)"
-        assert missing == []
+        warn_of(missing, language)
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
