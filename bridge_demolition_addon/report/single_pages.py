@@ -14,7 +14,7 @@ from .document.blocks import Block, Column, DataTable, Document, Paragraph, fact
 from .sections.cover import limits_of
 from .wording.verdict import CORDON
 
-CLIENT, AUTHORITY, CREW = AUDIENCES = tuple(SINGLE_PAGES)
+CLIENT, AUTHORITY, CREW = SINGLE_PAGES
 
 _AROUND = ("neighbours", "charge_neighbours", "touchdown", "neighbours_of_runs", "zones", "fragments")
 """Tables on what is around the bridge, as far as a report has them."""

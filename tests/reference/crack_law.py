@@ -10,7 +10,7 @@ import numpy as np
 from bridge_demolition_addon.engineering.arrays import FloatArray
 from bridge_demolition_addon.engineering.elasticity.crack_state import DOWEL_SHARE, SHEARED, stretches_of_bars
 from bridge_demolition_addon.engineering.elasticity.joint_rows import dot_products
-from bridge_demolition_addon.engineering.elasticity.steel_bars import Bars, bar_forces, bar_response
+from bridge_demolition_addon.engineering.elasticity.steel_bars import Bars, bar_response
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -30,8 +30,8 @@ class CrackLaw:
         """Return the forces (3, b) across gaps (3, b)."""
         across_m = dot_products(self.normals, gaps_m)
         slid_m = gaps_m - across_m * self.normals
-        bars = bar_forces(self.bars, stretches_of_bars(gaps_m, self.directions), self.slips_m, self.flows_m)
-        rubs = bar_forces(self.rubbing, slid_m, self.rests_m, np.zeros_like(across_m))
+        bars = bar_response(self.bars, stretches_of_bars(gaps_m, self.directions), self.slips_m, self.flows_m).forces_n
+        rubs = bar_response(self.rubbing, slid_m, self.rests_m, np.zeros_like(across_m)).forces_n
         return self._together(bars, rubs, across_m)
 
     def linear(self, gaps_m: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -124,14 +124,6 @@ class BarResponse:
         return tangents
 
 
-def bar_forces(bars: Bars, stretches_m: FloatArray, slips_m: FloatArray, flows_m: FloatArray) -> FloatArray:
-    """Return the forces (3, b) of `bar_response` alone."""
-    trial = bars.stiffness_n_m * (stretches_m - slips_m)
-    size = np.sqrt(dot_products(trial, trial))
-    flow = np.maximum(size - bars.yield_n - bars.modulus_n_m * flows_m, 0.0) / bars.resists_n_m
-    return _shortened(trial, size, bars.stiffness_n_m * flow)
-
-
 def bar_response(bars: Bars, stretches_m: FloatArray, slips_m: FloatArray, flows_m: FloatArray) -> BarResponse:
     """Return what bars do under stretches (3, b), after slips (3, b) that came on ways of a length (b,)."""
     trial = bars.stiffness_n_m * (stretches_m - slips_m)
