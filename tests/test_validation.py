@@ -260,6 +260,15 @@ def test_a_pier_topples_by_the_impulse_of_a_charge(blender, tmp_path, share, top
     assert (angles[-1] > toppling_charge.SLENDERNESS) == topples
 
 
+@pytest.mark.long
+@pytest.mark.parametrize(("share", "tips"), [(0.9, False), (1.1, True)])
+def test_a_shaft_that_lands_on_an_edge_tips_over_the_other(blender, tmp_path, share, tips):
+    import landing_shaft
+
+    _, leans = landing_shaft.course(tmp_path, 1.0, 4.0, share, substeps=20)
+    assert (abs(leans[-1]) > np.arctan(1.0 / 4.0)) == tips
+
+
 def test_a_row_topples_as_fast_as_published():
     """J. van Leeuwen, as worked out for tiles of 48 mm by a program of its own: 1.24 m/s, and by √(g h) for others."""
     import toppling_row
