@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Sequence
 from fnmatch import fnmatchcase
 from functools import lru_cache
-from io import BytesIO
 from pathlib import Path
 from typing import Any
 
@@ -91,7 +89,7 @@ def loaded(path: Path, *, is_cloud: bool, part: str | None = None) -> tuple[np.n
 
     try:
         if part is not None:
-            whole = (_part_of_obj if path.suffix.lower() == ".obj" else _part_of_glb)(path, part)
+            whole = _part_of(path, part)
         else:
             whole = trimesh.load(path, process=False) if is_cloud else trimesh.load(path, force="mesh", process=False)
     except GeometryError:
@@ -111,50 +109,30 @@ def loaded(path: Path, *, is_cloud: bool, part: str | None = None) -> tuple[np.n
     return vertices[used], triangles.reshape(-1, 3)
 
 
-def _part_of_obj(path: Path, part: str) -> Any:
-    """Return the mesh of the objects and groups of a name in an OBJ file."""
+def _part_of(path: Path, part: str) -> Any:
+    """Return the mesh of the objects of a name in a file, in their places; in an OBJ file also of groups."""
     import trimesh
 
-    lines, names, is_wanted = [], [""], False
-    of_object = ""
-    for line in path.read_text(encoding="utf-8", errors="replace").replace("\\\n", " ").splitlines():
-        kind, _, rest = line.strip().partition(" ")
-        if kind in ("o", "g"):
-            of_object = rest.strip() if kind == "o" else of_object
-            names.append(rest.strip())
-            is_wanted = _is_called(part, of_object, rest.strip())
-        if kind not in ("f", "l", "p", "usemtl", "mtllib", "o", "g") or (kind == "f" and is_wanted):
-            lines.append(line)
-    _check_there(path, part, names[1:])
-    content = BytesIO("\n".join(lines).encode())
-    return trimesh.load(content, file_type="obj", force="mesh", process=False)
-
-
-def _part_of_glb(path: Path, part: str) -> Any:
-    """Return the mesh of the nodes and meshes of a name in a GLB file, in their places."""
-    import trimesh
-
-    scene: Any = trimesh.load(path, process=False)
-    nodes = {node: scene.graph[node] for node in scene.graph.nodes_geometry}
-    _check_there(path, part, [name for node, (_, mesh) in nodes.items() for name in (node, mesh)])
-    wanted = [
-        scene.geometry[mesh].copy().apply_transform(matrix)
-        for node, (matrix, mesh) in nodes.items()
-        if _is_called(part, node, mesh)
-    ]
-    return trimesh.util.concatenate(wanted)
-
-
-def _is_called(part: str, *names: str) -> bool:
-    return any(fnmatchcase(name.casefold(), part.casefold()) for name in names)
-
-
-def _check_there(path: Path, part: str, names: Sequence[str]) -> None:
-    """Check that a file has an object of a name."""
-    if any(_is_called(part, name) for name in names):
-        return
-    known = ", ".join(list(dict.fromkeys(filter(None, names)))[:_LISTED])
-    has = f"it has {known}{' and more' if len(set(names)) > _LISTED else ''}" if known else "it names none"
+    by_group = ({"split_objects": True}, {"split_groups": True})
+    ways = [way | {"group_material": False} for way in by_group] if path.suffix.lower() == ".obj" else [{}]
+    known: list[str] = []
+    for way in ways:
+        scene: Any = trimesh.load_scene(path, process=False, **way)
+        nodes = {node: scene.graph[node] for node in scene.graph.nodes_geometry}
+        known += [name for node, (_, mesh) in nodes.items() for name in (node, mesh)]
+        wanted = [
+            scene.geometry[mesh].copy().apply_transform(matrix)
+            for node, (matrix, mesh) in nodes.items()
+            if any(fnmatchcase(name.casefold(), part.casefold()) for name in (node, mesh))
+        ]
+        if wanted:
+            return trimesh.util.concatenate(wanted)
+    names = list(dict.fromkeys(known))
+    has = (
+        f"it has {', '.join(names[:_LISTED])}{' and more' if len(names) > _LISTED else ''}"
+        if names
+        else "it names none"
+    )
     raise GeometryError(f'{path}: has no object "{part}", which geometry.part names; {has}.')
 
 
