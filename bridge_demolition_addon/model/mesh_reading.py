@@ -113,8 +113,8 @@ def _part_of(path: Path, part: str) -> Any:
     """Return the mesh of the objects of a name in a file, in their places; in an OBJ file also of groups."""
     import trimesh
 
-    by_group = ({"split_objects": True}, {"split_groups": True})
-    ways = [way | {"group_material": False} for way in by_group] if path.suffix.lower() == ".obj" else [{}]
+    splits = ("split_objects", "split_groups") if path.suffix.lower() == ".obj" else ()
+    ways: list[dict[str, bool]] = [{split: True, "group_material": False} for split in splits] or [{}]
     known: list[str] = []
     for way in ways:
         scene: Any = trimesh.load_scene(path, process=False, **way)
@@ -128,11 +128,8 @@ def _part_of(path: Path, part: str) -> Any:
         if wanted:
             return trimesh.util.concatenate(wanted)
     names = list(dict.fromkeys(known))
-    has = (
-        f"it has {', '.join(names[:_LISTED])}{' and more' if len(names) > _LISTED else ''}"
-        if names
-        else "it names none"
-    )
+    listed = ", ".join(names[:_LISTED]) + (" and more" if len(names) > _LISTED else "")
+    has = f"it has {listed}" if names else "it names none"
     raise GeometryError(f'{path}: has no object "{part}", which geometry.part names; {has}.')
 
 

@@ -240,6 +240,11 @@ class BlastZone(PlannedAction):
         return along, drilled, 3 - along - drilled
 
     @property
+    def is_upright(self) -> bool:
+        """Whether its member runs upwards there."""
+        return self.along == "z"
+
+    @property
     def goes_off(self) -> bool:
         """Return whether anything in it detonates."""
         return self.fires and self.mass_kg > 0.0

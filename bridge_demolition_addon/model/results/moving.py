@@ -113,7 +113,7 @@ CREEP_S = 1.0
 
 LEAST_CREEP_M_S = 0.005
 """Mean speed from which on a shard creeps. What lies on others by contact under elastic connections slips at up to
-4.9 mm/s by the solver alone, where sub-steps are 2 ms or shorter (docs/elastic.md)."""
+1.5 mm/s by the solver alone, with 10 iterations (docs/elastic.md)."""
 
 _SAME_WAY = 0.5
 """Cosine between the ways in the two halves from which on they are one way."""

@@ -104,6 +104,11 @@ class PlacedZone:
         return breaking_range_kg_m3(element_of(self.zone, self.member.kind), self.burden_m)
 
     @property
+    def drops(self) -> bool:
+        """Whether what is above falls: it is upright, fires, and its concrete is thrown out."""
+        return self.zone.is_upright and self.zone.goes_off and self.effect == Effect.THROWN
+
+    @property
     def specific_kg_m3(self) -> float:
         """Explosive by volume."""
         return self.zone.mass_kg / self.volume_m3
@@ -367,7 +372,7 @@ def zone_totals(zones: Sequence[PlacedZone], members: Sequence[Member]) -> Itera
     if not lowest <= rate <= highest:
         yield "look at", f"{rate:.1f} g/t are outside {lowest:g} to {highest:g}, which all recorded jobs are within"
     yield "", "charges are fixed by test shots and a licensed blaster"
-    if any(placed.effect == Effect.THROWN and placed.zone.along == "z" for placed in zones):
+    if any(placed.drops for placed in zones):
         yield (
             "look at",
             "what lands is by energy of one shaft with flat ends, and no test of a blasted column confirms it;",

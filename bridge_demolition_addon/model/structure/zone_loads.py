@@ -9,7 +9,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...engineering.drilled_charges.landing import LandingShaft
-from ...engineering.drilled_charges.specific_charge import Effect
 from ...engineering.geometry.vectors import AXES, cross, length
 from ...engineering.mechanics.section_cuts import ConnectionLoads
 from ...engineering.units import STANDARD_GRAVITY_M_S2
@@ -31,7 +30,6 @@ _LEAST_M = 0.01
 _AT_ONCE = 2.0
 """Force by that at rest in elastic bars whose load comes upon them at once."""
 
-_UPRIGHT = "z"
 _MEGA = 1e6
 
 
@@ -71,7 +69,7 @@ def _load_of(zone: BlastZone, model: Model, loads: ConnectionLoads) -> ZoneLoad:
         pressed_n = outwards * float(force[along])
         force[along] = moment[along] = 0.0
         ends.append(ZoneLoad(given(zone.name), pressed_n, float(length(force)), float(length(moment))))
-    return ends[0] if zone.along == _UPRIGHT else max(ends, key=lambda end: end.bending_nm)
+    return ends[0] if zone.is_upright else max(ends, key=lambda end: end.bending_nm)
 
 
 def _middle_m(model: Model, rows: np.ndarray) -> np.ndarray:
@@ -163,7 +161,7 @@ def zone_falls(
     zones: Sequence[PlacedZone], scenario: Scenario, loads: Mapping[str, ZoneLoad] | None = None
 ) -> dict[str, ZoneFall]:
     """Return the falls of upright zones that fire and are thrown out, by their names; `loads` are what zones carry."""
-    thrown = [placed for placed in zones if _is_thrown(placed) and placed.zone.along == _UPRIGHT]
+    thrown = [placed for placed in zones if placed.drops]
     falls = {}
     for placed in thrown:
         name, fall = given(placed.zone.name), _fall_of(placed, thrown)
@@ -172,14 +170,10 @@ def zone_falls(
     return falls
 
 
-def _is_thrown(placed: PlacedZone) -> bool:
-    return placed.zone.goes_off and placed.effect == Effect.THROWN
-
-
 def _fall_of(placed: PlacedZone, thrown: Sequence[PlacedZone]) -> ZoneFall:
     begin_m, end_m = placed.zone.ends_along_m
     alike = [other.zone for other in thrown if other.member.name == placed.member.name]
-    lowest_m, highest_m = placed.member.solid.bounds[:, AXES.index(_UPRIGHT)].tolist()
+    lowest_m, highest_m = placed.member.solid.bounds[:, 2].tolist()
     next_m = min((zone.ends_along_m[0] for zone in alike if zone.middle_m > end_m), default=highest_m)
     last_m = max((zone.ends_along_m[1] for zone in alike if zone.middle_m < begin_m), default=lowest_m)
     all_m = math.fsum(zone.height_m for zone in alike)
@@ -199,12 +193,12 @@ def _shaft_of(placed: PlacedZone, fall: ZoneFall, load: ZoneLoad, scenario: Scen
 
 def load_facts(placed: PlacedZone, load: ZoneLoad) -> Iterator[Fact]:
     """Yield what a zone carries at rest, and whether its bars hold that where its concrete is gone."""
-    if placed.zone.along != _UPRIGHT:
+    if not placed.zone.is_upright:
         yield "", f"carries {load.bending_nm / _MEGA:.2f} MN·m, and {load.shear_n / _MEGA:.2f} MN across it, at rest"
         return
     how = "pressed" if load.pressed_n >= 0.0 else "pulled"
     carries = f"{how} with {abs(load.pressed_n) / _MEGA:.2f} MN at rest"
-    if not _is_thrown(placed):
+    if not placed.drops:
         yield "", carries
     elif not placed.bars:
         yield "", f"{carries}, and no bars are left to carry it"
