@@ -41,6 +41,7 @@ from ...engineering.mechanics.reinforcement import FaceBars
 from ...engineering.mechanics.section_cuts import section_axes
 from ...model.results.frames import Inventory
 from ...model.schema import given
+from ...model.structure.equilibrium import largest_deflection_m
 from ...model.structure.tendons import ModelTendons
 from ...scene.connections.constraints import Breaking
 from ...scene.world import scene_time_step
@@ -65,7 +66,7 @@ class RestingState:
     Attributes
     ----------
     deflection_m : float
-        Largest downward displacement of a shard.
+        Largest downward displacement of a shard, below 0 where a larger one is upwards.
     frequency_hz : float
         First frequency; 0 where nothing is held.
     damping_ratio : float
@@ -232,7 +233,7 @@ class ElasticConnections:
         fallen = (start - rest.positions_m)[2, rest.held]
         frequency = rest.frequency_hz
         ratio = max(self._damping_ratio, np.pi * frequency * self._shortest_s) if frequency else 0.0
-        return RestingState(float(fallen.max(initial=0.0)), frequency, ratio, int(rest.held.sum()))
+        return RestingState(largest_deflection_m(fallen), frequency, ratio, int(rest.held.sum()))
 
     @property
     def built_positions(self) -> tuple[np.ndarray, np.ndarray]:
