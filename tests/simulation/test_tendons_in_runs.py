@@ -40,7 +40,9 @@ def test_half_of_the_tendons_go_at_once(blender, tmp_path):
 def test_connections_carry_the_prestress_from_the_first_frame_on(blender, tmp_path):
     beam = Beam(beam_text(two_tendons("bonded = true"), blocks=12, span_m=SPAN_M, duration_s=0.2))
     recording, results, _ = played(blender, tmp_path, beam)
-    assert recording.resting_state.deflection_m == pytest.approx(beam.rest().sag_m, rel=0.01) and beam.rest().sag_m < 0.0
+    assert (
+        recording.resting_state.deflection_m == pytest.approx(beam.rest().sag_m, rel=0.01) and beam.rest().sag_m < 0.0
+    )
     row = beam.middle_face
     by_statics = beam.rest().loads
     forces = results.frames.loads.connection_forces_n[2:, row]
