@@ -16,6 +16,7 @@ from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.errors import MissingLibraryError, OutputError
 from bridge_demolition_addon.report.document import word_library
 from bridge_demolition_addon.report.document.blocks import Document, Listing, Section
+from bridge_demolition_addon.report.document.word import write_word
 from bridge_demolition_addon.report.write import write_report
 
 pytestmark = pytest.mark.long
@@ -79,7 +80,7 @@ def test_pages_are_a4_and_have_numbers(made):
 
 def test_lines_of_a_listing_stay_lines(tmp_path):
     document = Document("A", "", (Section("One", (Listing("a = 1\n  b = 2\n"),)),))
-    word.write_word(document, {}, tmp_path / "a.docx")
+    write_word(document, {}, tmp_path / "a.docx")
     assert "a = 1\n  b = 2" in [paragraph.text for paragraph in docx.Document(str(tmp_path / "a.docx")).paragraphs]
 
 
