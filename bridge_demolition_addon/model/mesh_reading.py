@@ -114,7 +114,7 @@ def _part_of(path: Path, part: str) -> Any:
     import trimesh
 
     splits = ("split_objects", "split_groups") if path.suffix.lower() == ".obj" else ()
-    ways: list[dict[str, bool]] = [{split: True, "group_material": False} for split in splits] or [{}]
+    ways: list[dict[str, Any]] = [{split: True, "group_material": False} for split in splits] or [{}]
     known: list[str] = []
     for way in ways:
         scene: Any = trimesh.load_scene(path, process=False, **way)
