@@ -93,11 +93,11 @@ def test_correlations_beyond_chance_are_bold(figure):
 def test_the_plan_has_a_legend_for_all_that_it_shows(figure):
     bridge = CrossSection.square((10.0, 4.0))
     likely = {"likely <1 $": bridge.offset(2.0), "likelier": bridge.offset(1.0)}
-    limits = {"limit": bridge.offset(5.0), "limit and buffer": bridge.offset(8.0)}
+    limits = {"limit": bridge.offset(5.0), "distance to keep": bridge.offset(8.0)}
     study_plan(figure, bridge, likely, limits, neighbours=NEIGHBOURS)
     (legend,) = figure.legends
     names = [text.get_text() for text in legend.get_texts()]
-    assert names == ["likely <1 \\$", "likelier", "bridge before", "limit", "limit and buffer", "neighbours"]
+    assert names == ["likely <1 \\$", "likelier", "bridge before", "limit", "distance to keep", "neighbours"]
     (axes,) = figure.axes
     assert [text.get_text() for text in axes.texts] == ["House"]
     low, high = axes.get_xlim()

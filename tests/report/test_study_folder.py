@@ -101,7 +101,7 @@ def test_the_limit_is_drawn_where_it_is_said(folder):
     content = json.loads((folder / "report" / "study_plan.geojson").read_text(encoding="utf-8"))
     areas = {feature["properties"]["name"]: feature["properties"]["area_m2"] for feature in content["features"]}
     limit_m = sorted(read_study_runs(folder).distances_m)[-2]
-    for name, around_m in (("limit", limit_m), ("limit and buffer", limit_m + 5.0)):
+    for name, around_m in (("limit", limit_m), ("distance to keep", 1.82 * limit_m + 5.0)):
         exact = 28.0 * 8.0 + 2.0 * 36.0 * around_m + np.pi * around_m**2
         assert areas[name] == pytest.approx(exact, rel=2.5e-3)
 

@@ -69,7 +69,7 @@ def test_areas_are_those_that_geometry_gives(runs, told):
     limit_m, buffer_m = runs.conclusions.reach.limit_m, TOLD_SCENARIO.exclusion.buffer_m
     areas = dict(zip(told.column("study_areas", "area"), told.column("study_areas", "area_m2"), strict=True))
     length, width = 28.0, 8.0
-    for name, around_m in (("limit", limit_m), ("limit and buffer", limit_m + buffer_m)):
+    for name, around_m in (("limit", limit_m), ("distance to keep", 1.82 * limit_m + buffer_m)):
         # A rectangle with a band around it (Steiner); the circles of its corners are within polygons of 64 sides.
         exact = length * width + 2.0 * (length + width) * around_m + np.pi * around_m**2
         assert areas[name] == pytest.approx(exact, rel=2.5e-3)
@@ -147,7 +147,7 @@ def test_a_scenario_without_a_site_has_a_plan():
     vary = (replace(told_study().settings.vary[2]),)
     told = told_of_study(told_runs(told_study(scenario=bare, vary=vary, criteria=())))
     assert told.statement.endswith("for which a buffer has to be added.")
-    assert "limit and buffer" not in told.column("study_areas", "area")
+    assert "distance to keep" in told.column("study_areas", "area")  # by the factor for runout alone
 
 
 def test_runs_that_moved_nothing_have_a_limit_of_nought():

@@ -6,6 +6,7 @@ from dataclasses import replace
 import pytest
 from support.study_folders import told_runs, told_study
 
+from bridge_demolition_addon.model.debris.throws import RUNOUT
 from bridge_demolition_addon.report.wording.verdict import run_limit, run_verdict, study_verdict
 
 
@@ -35,7 +36,12 @@ def test_a_study_says_its_limit_with_buffer_and_confidence():
     limit = told_runs().conclusions.reach
     known = replace(limit, limit_m=10.01)
     verdict = study_verdict(known, 3.0)
-    assert "within 10.1 m of the bridge's plan, 13.1 m with the buffer of 3 m" in verdict
+    # 10.01 m / 0.55, the shortest runout of the validated columns, is 18.2 m: the factor is not below it.
+    assert known.to_keep_m() >= 10.01 / RUNOUT[0]
+    assert "10.1 m of the bridge's plan, 21.3 m with the factor of 1.82 for runout and the buffer of 3 m" in verdict
+    assert "10.1 m of the bridge's plan, 18.3 m with the factor of 1.82 for runout, in" in study_verdict(known, None)
+    as_run = replace(known, runout_factor=1.0)
+    assert "within 10.1 m of the bridge's plan, 13.1 m with the buffer of 3 m" in study_verdict(as_run, 3.0)
     assert "at least 95 % of runs like these 93, with 95 % confidence" in verdict
     assert "still moved" in study_verdict(known, None, is_final=False)
 

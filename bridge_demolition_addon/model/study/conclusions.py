@@ -12,7 +12,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -135,6 +135,11 @@ class DebrisLimit:
     repeat_above_m: float  # a study of as many other runs has its limit above this with the confidence; -inf if unknown
     repeat_below_m: float  # and not above this; inf if unknown
     repeat_exceedance: float  # probability that its limit is larger than every distance of these runs
+    runout_factor: float = 1.0  # asked beforehand: on the limit, for what loose blocks run out short
+
+    def to_keep_m(self, buffer_m: float | None = None) -> float:
+        """Return the distance to keep, m: the limit with the factor for runout, and a buffer if there is one."""
+        return self.limit_m * self.runout_factor + (buffer_m or 0.0)
 
     @property
     def has_enough_runs(self) -> bool:
@@ -219,7 +224,10 @@ def conclusions(study: Study, table: RunsTable) -> Conclusions:
     met = [table.met(criterion.output) for criterion in study.criteria]
     return Conclusions(
         statuses=dict(sorted(Counter(row.status for row in table.rows).items())),
-        reach=debris_limit(table.largest(REACH), settings.quantile, confidence, settings.rank),
+        reach=replace(
+            debris_limit(table.largest(REACH), settings.quantile, confidence, settings.rank),
+            runout_factor=settings.runout_factor,
+        ),
         criteria=tuple(
             proportion(Text("met the criterion {}", criterion.name), which, confidence)
             for criterion, which in zip(study.criteria, met, strict=True)

@@ -23,6 +23,9 @@ _TAKEN = _NEEDED | {name: (*_NEEDED[name], "lowest", "highest") for name in ("no
 
 KEPT = ("outcome", "logs", "all")
 
+RUNOUT_FACTOR = 1.82
+"""What brings the shortest of the columns of loose blocks to the measured runout, rounded up: 1 / 0.55."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Vary(Table):
@@ -182,4 +185,13 @@ class StudySettings(EnsembleSettings):
         at_least=1,
         at_most=1000,
         label="Limit Is the Nth Largest",
+    )
+    runout_factor: float = schema.key(
+        "Factor on the limit, before the buffer is added: columns of loose blocks run out 0.55 to 0.73 times as far in "
+        "the model as measured ones of grains. By default what brings the shortest of them to the measured distance; "
+        "with 1 the limit is that of the runs.",
+        default=RUNOUT_FACTOR,
+        at_least=1,
+        at_most=10,
+        label="Factor for Runout",
     )

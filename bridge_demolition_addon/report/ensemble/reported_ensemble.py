@@ -121,20 +121,17 @@ class StudyRuns(ReportedEnsemble):
 
     @cached_property
     def limits(self) -> dict[str, tuple[float, CrossSection]]:
-        """The limit, and the limit with the buffer if there is one: how far each is from the bridge, m, and its area.
+        """The limit, and what is to keep with factor and buffer: how far each is from the bridge, m, and its area.
 
         Nothing where there is no limit.
         """
         if self.conclusions is None or not math.isfinite(self.conclusions.reach.limit_m):
             return {}
-        limit_m = self.conclusions.reach.limit_m
-        limits: dict[str, tuple[float, CrossSection]] = {Text("limit"): (limit_m, widened_around(self.bridge, limit_m))}
-        if self.buffer_m:
-            limits[Text("limit and buffer")] = (
-                limit_m + self.buffer_m,
-                widened_around(self.bridge, limit_m + self.buffer_m),
-            )
-        return limits
+        reach = self.conclusions.reach
+        distances_m = {Text("limit"): reach.limit_m, Text("distance to keep"): reach.to_keep_m(self.buffer_m)}
+        if distances_m["distance to keep"] == reach.limit_m:
+            del distances_m["distance to keep"]
+        return {name: (around_m, widened_around(self.bridge, around_m)) for name, around_m in distances_m.items()}
 
     @property
     def limit(self) -> CrossSection | None:

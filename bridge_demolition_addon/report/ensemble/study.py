@@ -154,6 +154,8 @@ def _asked(runs: StudyRuns) -> Iterator[tuple[str, str]]:
     limit = runs.conclusions.reach
     if limit.is_known:
         yield Text("Limit of the debris distance"), distance_to_keep(rounded_up(limit.limit_m, "0.01"))
+        kept = distance_to_keep(rounded_up(limit.to_keep_m(runs.buffer_m), "0.01"))
+        yield Text("Distance to keep, with factor for runout and buffer"), kept
     if limit.has_enough_runs:
         yield (
             Text("So many runs allow"),

@@ -38,7 +38,10 @@ def study_sentences(study: Study, conclusions: Conclusions) -> Iterator[str]:
         yield single_moving_sentence(conclusions.single_moving, conclusions.reach.runs, fastest_m_s)
     if conclusions.reach.is_known:
         yield repeat_sentence(conclusions.reach)
-        yield Text("{}; the buffer has to cover that.", PILES_NOTE)
+        if conclusions.reach.runout_factor == 1.0:
+            yield Text("{}; the buffer has to cover that.", PILES_NOTE)
+        else:
+            yield Text("{}; the factor for runout is for that.", PILES_NOTE)
     if conclusions.doubtful is None:
         yield (
             Text(
@@ -168,7 +171,7 @@ def limit_sentence(limit: DebrisLimit, inputs: Sequence[str], least_mass_kg: flo
         added = Text(
             "the buffer of {} is added, {} in all",
             distance_to_keep(buffer_m, "g"),
-            distance_to_keep(rounded_up(limit.limit_m + buffer_m, "0.1")),
+            distance_to_keep(rounded_up(limit.to_keep_m(buffer_m), "0.1")),
         )
     stayed = listed(inputs), debris, distance_to_keep(rounded_up(limit.limit_m, "0.1")), most
     within = (
@@ -196,7 +199,14 @@ def limit_sentence(limit: DebrisLimit, inputs: Sequence[str], least_mass_kg: flo
         "than a shard, for which {}.",
         added,
     )
-    return joined("{} {}", (within, share, model))
+    if limit.runout_factor == 1.0:
+        return joined("{} {}", (within, share, model))
+    runout = Text(
+        "Loose blocks run out short in this model: the limit is multiplied by {}, to {}.",
+        f"{limit.runout_factor:g}",
+        distance_to_keep(rounded_up(limit.to_keep_m(), "0.1")),
+    )
+    return joined("{} {}", (within, share, runout, model))
 
 
 def repeat_sentence(limit: DebrisLimit) -> str:

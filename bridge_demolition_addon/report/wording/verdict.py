@@ -64,9 +64,14 @@ def study_verdict(limit: DebrisLimit, buffer_m: float | None, *, is_final: bool 
     if not limit.is_known:
         return Text("These runs set no limit, as {} of {} did not finish.", limit.unfinished, limit.runs)
     around = Text("Debris stays within {} of the bridge's plan", distance_to_keep(rounded_up(limit.limit_m, "0.1")))
-    if buffer_m:
-        in_all = distance_to_keep(rounded_up(limit.limit_m + buffer_m, "0.1"))
+    in_all, factor = distance_to_keep(rounded_up(limit.to_keep_m(buffer_m), "0.1")), f"{limit.runout_factor:g}"
+    if buffer_m and limit.runout_factor > 1.0:
+        buffer = distance_to_keep(buffer_m, "g")
+        around = Text("{}, {} with the factor of {} for runout and the buffer of {}", around, in_all, factor, buffer)
+    elif buffer_m:
         around = Text("{}, {} with the buffer of {}", around, in_all, distance_to_keep(buffer_m, "g"))
+    elif limit.runout_factor > 1.0:
+        around = Text("{}, {} with the factor of {} for runout", around, in_all, factor)
     parts = around, percent(limit.quantile), limit.runs, percent(limit.confidence)
     if is_final:
         return Text("{}, in at least {} of runs like these {}, with {} confidence.", *parts)
