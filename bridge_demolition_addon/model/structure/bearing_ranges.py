@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ...engineering.elasticity.equations import connected_parts
 from ...engineering.elasticity.equilibrium import Equilibrium
 from ...errors import ScenarioError
 from ...texts import Text
@@ -106,13 +107,15 @@ def bearing_axes(model: Model, bearings: Sequence[BearingForce]) -> tuple[Bearin
 def bearing_facts(
     scenario: Scenario, model: Model, rest: Equilibrium, bearings: Sequence[BearingForce]
 ) -> Iterator[Fact]:
-    """Yield what bearings carry, with the sum of each axis, and how far those that share one differ in another cut.
+    """Yield what bearings carry, with the sum of each axis, and how far those that share it differ in another cut.
 
-    Both cuts are compared without cracks, in which they are at `rest`.
+    Both cuts are compared without cracks, in which they are at `rest`. What each of two decks that meet over a pier
+    lays on it, statics of that deck say alone: no other cut is made for it.
     """
     axes = bearing_axes(model, bearings)
-    together = [number for axis in axes for number in axis.bearings]
-    other = next_cut(scenario, model) if axes else None
+    shared = [axis for axis in axes if _is_shared(model, axis)]
+    together = [number for axis in shared for number in axis.bearings]
+    other = next_cut(scenario, model) if shared else None
     own_n = _upwards_n(model, rest)
     more_n = np.zeros(len(own_n)) if other is None else _upwards_n(other, model_at_rest(other, scenario.joints)) - own_n
     for number, bearing in enumerate(bearings):
@@ -126,13 +129,23 @@ def bearing_facts(
         sum_n = math.fsum(float(bearings[number].force_n[2]) for number in axis.bearings)
         yield axis.name, f"{_KILO * sum_n:z.1f} kN up in all"
     if other is not None:
-        seed, largest = other_seed(scenario), max(float(own_n[list(axis.bearings)].mean()) for axis in axes)
+        seed, largest = other_seed(scenario), max(float(own_n[list(axis.bearings)].mean()) for axis in shared)
         share = float(abs(more_n[together]).max()) / largest
         yield (
             "another cut",
             f"by seed {seed}: single bearings differ by up to {share:.1%} of what one of an axis carries",
         )
         yield "", "in the mean. bda check --cuts 5 compares more cuts"
+
+
+def _is_shared(model: Model, axis: BearingAxis) -> bool:
+    """Return whether two bearings of an axis hold one body, of all that hangs together but for its bearings."""
+    bearings, pairs = given(model.bearings), model.connections.pairs
+    between = np.delete(pairs, bearings.springs.rows, axis=0)
+    between = between[(between >= 0).all(axis=1)]
+    body_of_shard = connected_parts(~model.fixed, *between.T)
+    above = [int(body_of_shard[pairs[bearings.rows_of(number)[0], 0]]) for number in axis.bearings]
+    return len(set(above)) < len(above)
 
 
 def other_seed(scenario: Scenario, number: int = 1) -> int:

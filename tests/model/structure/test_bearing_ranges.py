@@ -3,7 +3,7 @@
 
 import numpy as np
 import pytest
-from support.bearing_decks import deck_text
+from support.bearing_decks import WEIGHT_N_M, deck_text
 
 from bridge_demolition_addon.cli.main import main
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
@@ -126,6 +126,22 @@ def test_a_deck_in_lines_has_no_axis_of_several_bearings():
     scenario = scenario_from_text(deck_text())
     model = build_model(scenario)
     assert bearing_axes(model, model.bearings.forces(loads_of(model, model_at_rest(model, scenario.joints)))) == ()
+
+
+def test_no_other_cut_is_made_for_what_decks_that_meet_over_a_pier_lay_on_it():
+    """Each is a beam from -0.5 to 11.95 m on walls of 0.6 m, so on lines at 0 and 11.825 m, however it is cut."""
+    per_span = "[bridge.deck]\nper_span = true\njoint_gap_m = 0.1"
+    scenario = scenario_from_text(deck_text(spans=(12.0, 12.0)).replace("[bridge.deck]", per_span))
+    model = build_model(scenario)
+    rest = model_at_rest(model, scenario.joints)
+    forces = model.bearings.forces(loads_of(model, rest))
+    facts = dict(bearing_facts(scenario, model, rest, forces))
+    assert len(bearing_axes(model, forces)) == len([name for name in facts if name.startswith("on pier")]) > 0
+    assert not any("another cut" in words for fact in facts.items() for words in fact)
+    weight_n = 12.45 * WEIGHT_N_M
+    at_end_n = weight_n * (11.825 - 5.725) / 11.825
+    expected_n = [at_end_n, weight_n - at_end_n, weight_n - at_end_n, at_end_n]
+    assert [force.force_n[2] for force in forces] == pytest.approx(expected_n, rel=0.01)
 
 
 def test_another_cut_says_how_far_bearings_differ():
