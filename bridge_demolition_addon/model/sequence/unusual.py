@@ -20,6 +20,9 @@ _LARGEST_G_T = 2000.0
 _POINT_M = 0.01
 """Radius of a position that lies in a member or not."""
 
+_BESIDE_M = 1.0
+"""Distance to a charge within which nothing stands that has to be kept whole."""
+
 _MOST_MACHINES = 1.0
 """Mass of a machine over that of the bridge that it stands on."""
 
@@ -70,6 +73,15 @@ def _neighbours(scenario: Scenario, site: ModelWorksite) -> Iterator[str]:
     for neighbour in scenario.neighbours:
         if inside := site.member_within(neighbour.position_m, _POINT_M):
             yield Text("{} lies in {}, as no neighbour does (is its place right?)", neighbour.name, inside)
+        for charge in scenario.charges:
+            distance_m = math.dist(neighbour.position_m, charge.position_m)
+            if distance_m < _BESIDE_M:
+                yield Text(
+                    "{} is {} from {}, as no neighbour is (is its place right?)",
+                    neighbour.name,
+                    Quantity(distance_m, "m", ".2g"),
+                    charge.name,
+                )
 
 
 USUAL_DENSITY_KG_M3 = (300.0, 9000.0)

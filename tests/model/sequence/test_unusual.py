@@ -70,6 +70,10 @@ UNUSUAL = (
         {"neighbours": (Neighbour(name="crane", position_m=(6.5, 0.0, 5.4)),)},
         "crane lies in deck, as no neighbour does",
     ),
+    (
+        {"charges": (charge(),), "neighbours": (Neighbour(name="house", position_m=(6.5, 0.0, 1.3)),)},
+        "house is 0.3 m from Charge 1, as no neighbour is",
+    ),
     ({"equipment": (machine(2_140_000.0),)}, "crane is 20 times as heavy as the bridge (is it in kg?)"),
 )
 
