@@ -68,7 +68,7 @@ _THIN_M = 0.05
 """Slices of girders and slab that are not cut off beside a plane that something else cuts along."""
 
 _LEAST_IN_CLEAR = 2
-"""Pieces of a girder between two supports from which on it has pieces of their own above these."""
+"""Pieces of a girder between two supports, beside those above them: with fewer it is hardly a beam."""
 
 _SHARDS_OF_PIECE, _MOST_PIECES = 6, 12
 """Shards of a piece of a member with many, and number of pieces of wide ones: what is cambered is straight in each."""
@@ -307,6 +307,7 @@ def _stations_m(
         # Rigid connections share no load by their stiffness, and are cut as they were in 2019.
         supports = _supports_m(members, rows[1], rows) if scenario.connections.is_elastic else []
         places = _pieces_m(begin, begin + length, supports, pieces, shortest, draw)
+        counts[rows] = np.maximum(counts[rows], (len(places) + 1) * np.array([len(girders), *[1] * len(girders)]))
         found |= dict.fromkeys(rows, places)
     return found
 
@@ -343,8 +344,8 @@ def _pieces_m(
         edges += [low, high]
     clear = [stretch for stretch in np.reshape([*edges, end], (-1, 2)).tolist() if stretch[0] != stretch[1]]
     lengths = np.array([high - low for low, high in clear])
-    rest = pieces - len(supports_m)
-    if (lengths < shortest).any() or rest < _LEAST_IN_CLEAR * len(clear):
+    rest = max(pieces - len(supports_m), _LEAST_IN_CLEAR * len(clear) * bool(supports_m))
+    if not supports_m or (lengths < _LEAST_IN_CLEAR * shortest).any():
         clear, lengths, rest = [[begin, end]], np.array([end - begin]), max(pieces, 1)
     places = []
     for (low, high), count in zip(clear, shards_per_member(lengths, rest).tolist(), strict=True):

@@ -3,6 +3,7 @@
 against meshes of bricks (OpenSees)."""
 
 import csv
+import itertools
 
 import numpy as np
 import pytest
@@ -61,6 +62,8 @@ OF_PIERS = '[[supports]]\nmember = "pier"\n[[fracture.members]]\nmember = "pier"
 FOUR = {"spans": [16.0], "width": 8.0, "slab": 0.25, "number": 4, "web": 0.4, "deep": 0.9}
 THREE = {"spans": [25.0, 25.0], "width": 15.0, "slab": 0.4, "number": 3, "web": 1.5, "deep": 1.6}
 
+FIVE = {**THREE, "spans": [24.5, 28.0, 29.0, 28.0, 24.5]}
+
 
 def planned(bridge, shards, seed, skew=0.0):
     height, of_piers = (
@@ -111,7 +114,8 @@ def by_bricks(case):
 
 def by_grillage_kn(bridge):
     supports, spacing = np.cumsum([0.0, *bridge["spans"]]), bridge["width"] / bridge["number"]
-    stations = np.concatenate(([-0.4], np.linspace(0.0, supports[-1], 65), [supports[-1] + 0.4]))
+    within = (np.linspace(*ends, 33)[1:] for ends in itertools.pairwise(supports))
+    stations = np.concatenate(([-0.4, 0.0], *within, [supports[-1] + 0.4]))
     girders = spacing * (np.arange(bridge["number"]) - (bridge["number"] - 1) / 2.0)
     widths = np.full(bridge["number"], spacing)
     grillage = Grillage(girders, stations, bridge["slab"], (bridge["web"], bridge["deep"]), widths, 33e9, 33e9 / 2.4)
@@ -142,6 +146,14 @@ def test_three_girders_over_two_spans_have_theirs(shards, seed):
     found = bearings_kn(THREE, *planned(THREE, shards, seed))
     assert found == pytest.approx(by_grillage_kn(THREE), rel=0.05)
     assert found == pytest.approx(found[:, ::-1], rel=0.02)  # as symmetric as the bridge is
+
+
+@pytest.mark.parametrize(("shards", "seed"), [(60, 1), (100, 2)])
+def test_girders_have_two_pieces_in_each_of_five_spans_by_few_shards_too(shards, seed):
+    plan, model = planned(FIVE, shards, seed)
+    assert bearings_kn(FIVE, plan, model) == pytest.approx(by_grillage_kn(FIVE), rel=0.05)
+    # 6 above supports and 10 between them, each of 3 shards and 3 below; what stands below is 14 more.
+    assert len(model.shards) >= 6 * 16 + 14
 
 
 @pytest.mark.slow
