@@ -184,18 +184,26 @@ def table() -> list[str]:
     cases = list(dict.fromkeys((row["zones"], row["height_m"], row["zone_m"]) for row in rows))
     by_case = {(row["cut"], row["zones"], row["height_m"], row["zone_m"]): row for row in rows}
     lines = [
-        "| zones | column | each zone | shaft | tips on an edge from | crushed at most | run, cut across "
+        "| zones | column | each zone | shaft | tips on an edge from | crushed at most | by energy | run, cut across "
         "| run, irregular shards |",
-        "| --- | --- | --- | --- | --- | --- | --- | --- |",
+        "| --- | --- | --- | --- | --- | --- | --- | --- | --- |",
     ]
     for case in cases:
         row = by_case["across", *case]
         outcomes = (_outcome(by_case.get((cut, *case))) for cut in CUTS)
         lines.append(
             f"| {case[0]} | {case[1]} m | {case[2]} m | {row['shaft_m']} m | {row['tips_from_m']} m "
-            f"| {row['crushed_m']} m | {' | '.join(outcomes)} |"
+            f"| {row['crushed_m']} m | {by_energy(*case)} | {' | '.join(outcomes)} |"
         )
     return lines
+
+
+def by_energy(zones: str, height_m: str, zone_m: str) -> str:
+    """What the upper piece, which falls by all zones, does where it lands on an edge and nothing holds its head."""
+    number, length_m = int(zones), shaft_m(float(height_m), float(zone_m), int(zones))
+    own_n = length_m * SIDE_M * SIDE_M * DENSITY_KG_M3 * G
+    upper = LandingShaft(length_m, SIDE_M, SIDE_M, LOAD_N + own_n, own_n, STRENGTH_PA)
+    return "can tip" if number * float(zone_m) >= upper.tips_from_m else "can stand"
 
 
 def _outcome(row: dict[str, str] | None) -> str:

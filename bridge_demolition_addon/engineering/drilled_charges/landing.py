@@ -11,6 +11,8 @@ Each of these is a bound by energy or momentum, of a shaft with flat ends of the
   403-417, with the impact of a fall in the place of the ground's motion. Nothing holds its head. A slender shaft takes
   a fall of half its length, whatever the load and the section, if its own mass is small, of a third without a load.
 
+With several zones these are bounds of each piece between them, under all that is above it.
+
 Bars in the zone, which fold, take some of the energy: less is crushed, and it tips less.
 """
 

@@ -108,11 +108,18 @@ class CrackedStructure:
         memo = {id(part): part for part in (self._frames, self._built.stiffness, self._bodies)}
         return deepcopy(self, memo)
 
-    def load(self, accelerations: FloatArray, overloaded: Overloaded, tear: Tear, pause: Pause) -> bool:
+    def load(
+        self,
+        accelerations: FloatArray,
+        overloaded: Overloaded,
+        tear: Tear,
+        pause: Pause,
+        is_enough: Callable[[], bool] = lambda: False,
+    ) -> bool:
         """Let it come to rest under loads by mass (6, n), connections breaking one after another.
 
         Return whether it did. What falls, or goes on moving, is not held any more. `pause` is called before each
-        solving.
+        solving. It ends where what is held already `is_enough`.
         """
         built = self._built
         structure = ElasticStructure(
@@ -124,6 +131,8 @@ class CrackedStructure:
         for _ in range(_MOST_STEPS):
             ruptured = structure.update_plastic_state(self.positions_m, self.rotations)
             self._let_go()
+            if is_enough():
+                return False
             broke, step = self._broken_in_step(structure, self._with_tendons(accelerations), overloaded, tear, pause)
             self.loads = self._loads_of(step)
             moving = self._moving(step)

@@ -85,6 +85,7 @@ class StandingBridge:
         self._inertias, self._held_motions = inertias_of(model), held_motions(model, joints)
         self._utilisations = Utilisations(model, joints)
         self._as_built: Standing | None = None
+        self._factors: dict[tuple[bytes | tuple[CutTendon, ...], ...], float] = {}
         self._last_cracked: tuple[tuple[bytes | float | tuple[CutTendon, ...], ...], CrackedBridge] | None = None
 
     def tendons(self, intact: np.ndarray, cuts: Sequence[CutTendon] = ()) -> TendonForces | None:
@@ -291,6 +292,17 @@ class StandingBridge:
         elastic = self._elastic(intact, left, loads, 1.0, every_section=False, cuts=cuts)
         if not elastic.held.any():
             return np.nan
+        # A part that hangs free, or is gone, has no part in it.
+        is_there = np.append(elastic.held | self.model.fixed, True)
+        holds = intact & is_there[self.model.connections.pairs].all(axis=1)
+        case = (holds.tobytes(), left[holds].tobytes(), loads[:, elastic.held].tobytes(), tuple(cuts))
+        if case not in self._factors:
+            self._factors[case] = self._factor_with(intact, left, loads, elastic, cuts)
+        return self._factors[case]
+
+    def _factor_with(
+        self, intact: np.ndarray, left: np.ndarray, loads: np.ndarray, elastic: Standing, cuts: Sequence[CutTendon]
+    ) -> float:
         if self.model.crack_bars is None:
             return _largest(lambda factor: not self.comes_down(intact, left, loads, factor).any())
         return self._collapse_factor_of(self._begun(intact, left, elastic, cuts), loads)
@@ -301,8 +313,7 @@ class StandingBridge:
         def stands(factor: float) -> bool:
             nonlocal kept, stood
             heavier = kept.copy()
-            heavier.carry(factor, loads, self._pause)
-            if heavier.fallen.any():
+            if not heavier.carries(factor, loads, self._pause):
                 return False
             kept, stood = heavier, factor
             return True

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from copy import copy
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -132,6 +132,14 @@ class CrackedBridge:
 
         It may take long: `pause` is called again and again meanwhile.
         """
+        self._carry(factor, loads, pause, lambda: False)
+
+    def carries(self, factor: float, loads: np.ndarray, pause: Pause = lambda: None) -> bool:
+        """Return whether it carries these, as `carry` has them; what else would come down is left where it is."""
+        self._carry(factor, loads, pause, lambda: bool(self.fallen.any()))
+        return not self.fallen.any()
+
+    def _carry(self, factor: float, loads: np.ndarray | None, pause: Pause, is_enough: Callable[[], bool]) -> None:
         accelerations = np.zeros((6, len(self._masses)))
         accelerations[2] = -STANDARD_GRAVITY_M_S2 * (self._masses > 0.0)
         if loads is not None:
@@ -140,7 +148,7 @@ class CrackedBridge:
             accelerations += np.divide(on_all, inert, out=np.zeros_like(on_all), where=inert > 0.0)
         before, self._carried = self._carried, factor if self._has_tendons else None
         for part in _factors_between(before, factor):
-            if not self._structure.load(part * accelerations, self._overloaded, self._tear, pause):
+            if not self._structure.load(part * accelerations, self._overloaded, self._tear, pause, is_enough):
                 break
 
     @property

@@ -86,6 +86,8 @@ class ZoneFall:
     ----------
     falls_m : float
         Height of the zone.
+    fallen_m : float
+        Heights of this zone and those below it: what is above lands with the speed of that at most.
     above_m, below_m : float
         Lengths of its member above it and below it, each up to the next zone that is thrown out.
     all_m : float
@@ -93,49 +95,66 @@ class ZoneFall:
     zones : int
         How many these are.
     shaft : LandingShaft or None
-        What is above it, where it is the only one and its load and strength are known.
+        The piece above it, under all that this carries, where its load and strength are known.
+    can_stand : bool
+        Whether all pieces of the member can land on each other, and stand.
     """
 
     falls_m: float
+    fallen_m: float
     above_m: float
     below_m: float
     all_m: float
     zones: int
     shaft: LandingShaft | None = None
+    can_stand: bool = True
 
     @property
     def lands_m_s(self) -> float:
-        """Speed after a free fall by the height of the zone."""
-        return math.sqrt(2.0 * STANDARD_GRAVITY_M_S2 * self.falls_m)
+        """Largest speed as it lands, of a free fall."""
+        return math.sqrt(2.0 * STANDARD_GRAVITY_M_S2 * self.fallen_m)
 
     @property
     def crushed_m(self) -> float | None:
-        """What is crushed at most as it lands; None where that is not known."""
-        return self.shaft.crushed_m(self.falls_m)[1] if self.shaft else None
+        """What is crushed at most as it lands, after all falls of the member; None where that is not known."""
+        return self.shaft.crushed_m(self.all_m)[1] if self.shaft else None
 
     @property
     def is_crushed(self) -> bool:
-        """Whether all of its member is crushed as it lands, at least with what explosive leaves of its strength."""
+        """Whether all of both pieces is crushed as it lands, at least with what explosive leaves of its strength."""
         return self.crushed_m is not None and self.crushed_m >= self.above_m + self.below_m
 
     @property
-    def can_stand(self) -> bool:
-        """Whether what is above is guided by one piece of its member to the other, and can stand on it."""
-        return self.zones == 1 and not (self.shaft and (self.is_crushed or self.shaft.buckles))
+    def tips(self) -> bool:
+        """Whether the piece above it tips over where it lands on an edge, and nothing holds its head."""
+        return self.shaft is not None and self.fallen_m >= self.shaft.tips_from_m
+
+    @property
+    def lets_fold(self) -> bool:
+        """Whether its piece does not stand: that of an only zone may be guided by the stub, those between zones tip."""
+        if self.shaft is None:
+            return self.zones > 1 and self.above_m > _LEAST_M
+        return self.is_crushed or self.shaft.buckles or (self.zones > 1 and self.tips)
 
     @property
     def text(self) -> str:
         """What is to be expected, without a full stop."""
-        falls = f"what is above falls by {self.falls_m:.2f} m (lands with {self.lands_m_s:.1f} m/s)"
+        falls = f"what is above falls by {self.falls_m:.2f} m"
         if self.zones > 1:
-            return f"{falls}, {self.all_m:.2f} m by {self.zones} zones of the member, between which it can fold"
+            falls += (
+                f" (lands with up to {self.lands_m_s:.1f} m/s), {self.all_m:.2f} m by {self.zones} zones of the member"
+            )
+            if self.can_stand:
+                return f"{falls}: its pieces can land on each other and stand, as none tips over after its fall"
+            return f"{falls}, between which it can fold"
+        falls += f" (lands with {self.lands_m_s:.1f} m/s)"
         onto = f"its stub of {self.below_m:.2f} m" if self.below_m > _LEAST_M else "what the member stands on"
         if not self.can_stand:
             return f"{falls} on {onto}"
         return f"{falls}, can land upright on {onto} and stand: a second zone of the member lets it fold"
 
     def landing_texts(self) -> Iterator[str]:
-        """Yield what its landing does to the shaft by energy, a sentence without a full stop each."""
+        """Yield what its landing does to the piece above it by energy, a sentence without a full stop each."""
         if (shaft := self.shaft) is None:
             return
         least_n, most_n = (force / _MEGA for force in shaft.crushing_n)
@@ -145,12 +164,12 @@ class ZoneFall:
         elif shaft.buckles:
             yield f"its landing can buckle it: {forces}"
         else:
-            least_m, most_m = shaft.crushed_m(self.falls_m)
+            least_m, most_m = shaft.crushed_m(self.falls_m)[0], given(self.crushed_m)
             yield (
                 f"by energy {least_m:.2f} to {most_m:.2f} m of its {shaft.length_m:.2f} m are crushed ({forces}), and "
                 f"it stands on what is left if its head is within {shaft.lean_m:.2f} m of its foot"
             )
-            over = "can tip over" if self.falls_m >= shaft.tips_from_m else "rocks and stands"
+            over = "can tip over" if self.tips else "rocks and stands"
             yield (
                 f"where it lands on an edge and nothing holds its head it {over}: that takes a fall of "
                 f"{shaft.tips_from_m:.2f} m"
@@ -162,28 +181,35 @@ def zone_falls(
 ) -> dict[str, ZoneFall]:
     """Return the falls of upright zones that fire and are thrown out, by their names; `loads` are what zones carry."""
     thrown = [placed for placed in zones if placed.drops]
-    falls = {}
+    falls: dict[str, list[tuple[str, ZoneFall]]] = {}
     for placed in thrown:
         name, fall = given(placed.zone.name), _fall_of(placed, thrown)
         load = (loads or {}).get(name)
-        falls[name] = replace(fall, shaft=_shaft_of(placed, fall, load, scenario)) if load else fall
-    return falls
+        shaft = _shaft_of(placed, fall, load, scenario) if load else None
+        falls.setdefault(placed.member.name, []).append((name, replace(fall, shaft=shaft)))
+    return {
+        name: replace(fall, can_stand=not any(other.lets_fold for _, other in of_member))
+        for of_member in falls.values()
+        for name, fall in of_member
+    }
 
 
 def _fall_of(placed: PlacedZone, thrown: Sequence[PlacedZone]) -> ZoneFall:
     begin_m, end_m = placed.zone.ends_along_m
     alike = [other.zone for other in thrown if other.member.name == placed.member.name]
     lowest_m, highest_m = placed.member.solid.bounds[:, 2].tolist()
-    next_m = min((zone.ends_along_m[0] for zone in alike if zone.middle_m > end_m), default=highest_m)
+    above = [zone for zone in alike if zone.middle_m > end_m]
+    next_m = min((zone.ends_along_m[0] for zone in above), default=highest_m)
     last_m = max((zone.ends_along_m[1] for zone in alike if zone.middle_m < begin_m), default=lowest_m)
     all_m = math.fsum(zone.height_m for zone in alike)
-    return ZoneFall(placed.zone.height_m, next_m - end_m, begin_m - last_m, all_m, len(alike))
+    fallen_m = all_m - math.fsum(zone.height_m for zone in above)
+    return ZoneFall(placed.zone.height_m, fallen_m, next_m - end_m, begin_m - last_m, all_m, len(alike))
 
 
 def _shaft_of(placed: PlacedZone, fall: ZoneFall, load: ZoneLoad, scenario: Scenario) -> LandingShaft | None:
-    """Return what lands on the only zone of a member; None without a load, and where its strength is not known."""
+    """Return the piece above a zone; None without one or a load, and where its strength is not known."""
     material = material_of(scenario, placed.member)
-    if fall.zones > 1 or fall.above_m <= _LEAST_M or load.pressed_n <= 0.0 or material is None:
+    if fall.above_m <= _LEAST_M or load.pressed_n <= 0.0 or material is None:
         return None
     area_m2, side_m = placed.volume_m3 / placed.zone.height_m, min(placed.thickness_m, placed.width_m)
     own_n = area_m2 * fall.above_m * placed.density_kg_m3 * STANDARD_GRAVITY_M_S2

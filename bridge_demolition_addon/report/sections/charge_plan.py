@@ -86,7 +86,8 @@ _LOADED = (
 )
 _FALLS_TEXT = Text(
     "What is above a zone whose concrete is thrown out falls by the height of the zone. Where its member has one "
-    "such zone only, it can land upright on the stub below it and stand: a second zone lets it fold. By energy its end "
+    "such zone only, it can land upright on the stub below it and stand: a second zone lets it fold. Pieces between "
+    "several zones can land on each other and stand as well, where none tips over after its fall. By energy its end "
     "is crushed by so much at most, and where it lands on an edge and nothing holds its head it tips over from that "
     "fall on. These are bounds that no test of a blasted column confirms, and a run can bring down what stands by "
     "them. What zones carry is that at rest, by statics, below 0 where they are pulled."

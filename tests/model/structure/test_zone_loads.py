@@ -113,23 +113,46 @@ def test_what_can_be_crushed_from_end_to_end_is_not_said_to_stand(tmp_path, pres
     assert fall.can_stand == (text is None) == ("can land upright" in fall.text)
 
 
-def test_two_zones_of_a_member_let_it_fold(tmp_path):
+def falls_of_two(tmp_path, height_m, loads):
     zones = [
-        replace(ZONE, name=name, middle_m=middle_m, height_m=0.6, holes_a_row=2, spacing_m=0.3)
-        for name, middle_m in (("foot", 0.4), ("middle", 2.5), ("misfire", 3.5))
+        replace(ZONE, name=name, middle_m=middle_m, height_m=height_m, holes_a_row=2, spacing_m=0.2)
+        for name, middle_m in (("foot", 0.1 + height_m / 2.0), ("middle", 2.5), ("misfire", 3.5))
     ]
     zones[2] = replace(zones[2], fires=False)
     members = column_members()
-    falls = zone_falls(
-        [placed_zone(zone, members) for zone in zones],
-        column_scenario(tmp_path),
-        {"foot": ZoneLoad("foot", 521e3, 0.0, 0.0)},
-    )
+    return zone_falls([placed_zone(zone, members) for zone in zones], column_scenario(tmp_path), loads)
+
+
+def test_two_zones_of_a_member_let_it_fold_where_a_piece_tips_after_both_falls(tmp_path):
+    """What is above the upper zone falls by both heights: it lands with √(2 g 1.2 m), and tips on an edge from
+
+    4 (√(1.2² + 0.35²) - 1.2) (1.2² + 0.35²) / 0.7² / (1 - 0.7² / 2 / (1.2² + 0.35²))² = 0.895 m, were it without mass.
+    """
+    loads = {name: ZoneLoad(name, 521e3, 0.0, 0.0) for name in ("foot", "middle")}
+    falls = falls_of_two(tmp_path, 0.6, loads)
     assert set(falls) == {"foot", "middle"}
     assert (falls["foot"].above_m, falls["foot"].below_m) == pytest.approx((1.5, 0.1))
     assert (falls["middle"].above_m, falls["middle"].below_m) == pytest.approx((1.2, 1.5))
-    assert not falls["foot"].can_stand and not list(falls["foot"].landing_texts())
+    assert [fall.lands_m_s for fall in falls.values()] == pytest.approx([np.sqrt(1.2 * G), np.sqrt(2.4 * G)])
+    assert falls["middle"].shaft.tips_from_m == pytest.approx(0.895, rel=0.02)
+    assert [fall.tips for fall in falls.values()] == [False, True]
+    assert not any(fall.can_stand for fall in falls.values())
     assert falls["foot"].text.endswith("1.20 m by 2 zones of the member, between which it can fold")
+    # 0.521 MN fall by 0.6 m on 17.15 MN, or by 1.2 m on 8.575 MN
+    assert next(falls["foot"].landing_texts()).startswith("by energy 0.02 to 0.08 m of its 1.50 m are crushed")
+
+
+def test_pieces_that_do_not_tip_can_stand_on_each_other(tmp_path):
+    loads = {name: ZoneLoad(name, 521e3, 0.0, 0.0) for name in ("foot", "middle")}
+    falls = falls_of_two(tmp_path, 0.4, loads)
+    assert falls["middle"].text == (
+        "what is above falls by 0.40 m (lands with up to 4.0 m/s), 0.80 m by 2 zones of the member: its pieces can "
+        "land on each other and stand, as none tips over after its fall"
+    )
+    crushed = falls_of_two(tmp_path, 0.4, {**loads, "foot": ZoneLoad("foot", 8.0e6, 0.0, 0.0)})
+    assert crushed["foot"].is_crushed and not any(fall.can_stand for fall in crushed.values())
+    unknown = falls_of_two(tmp_path, 0.4, {"foot": loads["foot"]})
+    assert not any(fall.can_stand for fall in unknown.values()) and not list(unknown["middle"].landing_texts())
 
 
 def test_a_zone_of_a_column_that_hangs_is_pulled(tmp_path):
