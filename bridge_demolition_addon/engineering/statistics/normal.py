@@ -81,19 +81,23 @@ def probability(values: FloatArray) -> FloatArray:
 
 
 def log_probability(values: FloatArray) -> FloatArray:
-    """Return their logarithms (n,), also where they are too small for a number."""
-    return np.array([_log_probability(value) for value in values.tolist()])
+    """Return their logarithms (n,), also where they are too small for a number.
+
+    Far down by Mills' ratio (M. Abramowitz, I. A. Stegun, 1964, Handbook of Mathematical Functions, 26.2.12).
+    """
+    scaled = logarithm(np.array([_scaled_probability(value) for value in values.tolist()]))
+    return np.where(values > _FAR, scaled, scaled - 0.5 * values * values)
 
 
-def _log_probability(value: float) -> float:
-    """Far down by Mills' ratio (M. Abramowitz, I. A. Stegun, 1964, Handbook of Mathematical Functions, 26.2.12)."""
+def _scaled_probability(value: float) -> float:
+    """Return the probability of less, far down times exp(value² / 2)."""
     if value > 0.0:
-        return float(logarithm(1.0 - 0.5 * math.erfc(value / math.sqrt(2.0))))
+        return 1.0 - 0.5 * math.erfc(value / math.sqrt(2.0))
     if value > _FAR:
-        return float(logarithm(0.5 * math.erfc(-value / math.sqrt(2.0))))
+        return 0.5 * math.erfc(-value / math.sqrt(2.0))
     part = 1.0 / (value * value)
     series = -part * (1.0 - part * (3.0 - part * (15.0 - part * 105.0)))
-    return float(logarithm((1.0 + series) / (-value * math.sqrt(2.0 * math.pi)))) - 0.5 * value * value
+    return (1.0 + series) / (-value * math.sqrt(2.0 * math.pi))
 
 
 def _ratio(polynomials: tuple[Sequence[float], Sequence[float]], x: float) -> float:
