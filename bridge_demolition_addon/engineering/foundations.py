@@ -10,16 +10,14 @@ All arrays have their components first.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from .arrays import BoolArray, FloatArray, IntArray
-from .elasticity.springs import PressedSprings, SpringPositions, spring_term
-from .elasticity.substep import Term
-
-_ANY = 1e300
-"""Pressure by which friction holds any slip."""
+from .core.calls import call
+from .elasticity.springs import PressedSprings, SpringPositions, SpringsOfConnections
+from .elasticity.substep import Places
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -36,7 +34,7 @@ class SoilSprings:
     friction: FloatArray  # (f,), largest shear by pressure
 
 
-class Footings:
+class Footings(SpringsOfConnections):
     """All footings of a structure of n bodies, which has connections between bodies `first` and `second` (m,).
 
     Each footing's connection, of `rows` (f,), has the ground as one body. Positions (3, n) and rotations (3, 3, n) are
@@ -52,13 +50,12 @@ class Footings:
         positions_m: FloatArray,
         rotations: FloatArray,
     ):
-        self.rows, of = springs.rows, springs.footings
-        one, other = first[self.rows], second[self.rows]
+        of, one, other = springs.footings, first[springs.rows], second[springs.rows]
         standing = np.where(moves[one], one, other)
-        self._positions = SpringPositions.built(of, springs.places_m, (one, other), standing, positions_m, rotations)
+        positions = SpringPositions.built(of, springs.places_m, (one, other), standing, positions_m, rotations)
         areas = springs.areas_m2
         horizontal_n_m = areas * springs.horizontal_n_m3[of]
-        self._soil = PressedSprings(
+        soil = PressedSprings(
             areas * springs.stiffness_n_m3[of],
             np.stack((horizontal_n_m, horizontal_n_m)),
             areas * springs.capacity_pa[of],
@@ -66,43 +63,11 @@ class Footings:
             np.zeros(len(of), bool),
             np.zeros(len(of)),
         )
-        self._unloaded = np.zeros((3, len(of)))
-        self._remembered = np.full((12, len(of)), np.nan)
+        super().__init__(springs.rows, positions, soil)
 
     def update_plastic_state(self, positions_m: FloatArray, rotations: FloatArray) -> None:
         """Take over, before a sub-step, how far springs have settled or slid for good."""
-        gaps = self._positions.gaps(positions_m, rotations)[0]
-        soil = self._soil
-        deepest = soil.capacity_n / soil.vertical_n_m
-        self._unloaded[2] = np.minimum(self._unloaded[2], gaps[2] + deepest)
-        forces = replace(soil, pressed_n=np.full(len(soil.friction), _ANY)).resisted(gaps - self._unloaded)[0]
-        pressed_n = forces[2]
-        self._soil = replace(soil, pressed_n=pressed_n)
-        size = np.sqrt(forces[0] * forces[0] + forces[1] * forces[1])
-        limit = soil.friction * pressed_n
-        share = np.divide(limit, size, out=np.ones_like(size), where=size > limit)
-        self._unloaded[:2] = gaps[:2] + share * forces[:2] / soil.sideways_n_m
-        lifted = pressed_n <= 0.0
-        self._unloaded[:2, lifted] = gaps[:2, lifted]
-
-    @property
-    def touching(self) -> FloatArray:
-        """Part (f,) of the stiffness of each footing that is pressed, from 0 to 1, as it settled last."""
-        pressed = np.where(self._soil.pressed_n > 0.0, self._soil.vertical_n_m, 0.0)
-        return self._positions.summed(pressed) / self._positions.summed(self._soil.vertical_n_m)
-
-    def stored_j(self, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
-        """Return the energy (f,) that the springs would give back."""
-        gaps = self._positions.gaps(positions_m, rotations)[0]
-        return self._positions.summed(self._soil.stored_j(gaps - self._unloaded))
-
-    def in_substep(self, chosen: IntArray, positions_m: FloatArray, rotations: FloatArray, substep_s: float) -> Term:
-        """Return what some footings (c,) do in a sub-step of a length in s."""
-        gaps, arms, arms_below = self._positions.gaps(positions_m, rotations)
-        positions, which = self._positions.only(chosen)
-        gaps = gaps - self._unloaded
-        of_chosen = gaps.take(which, axis=1), arms.take(which, axis=1), arms_below.take(which, axis=1)
-        return spring_term(self.rows[chosen], positions, which, of_chosen, self._soil.only(which), self._remembered)
+        call("bda_soil_settle", self._in_core(), Places.of(positions_m, rotations))
 
 
 PRESSURE_BY_STIFFNESS_M = 0.025

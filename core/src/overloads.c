@@ -20,12 +20,6 @@ typedef struct {
     double area, directions[4], moduli[2], torsion_modulus; /* directions: principal axes of bending as columns */
 } section;
 
-/* Larger of two numbers; none where one of them is none. */
-static double larger(double one, double other)
-{
-    return one != one || one > other ? one : other;
-}
-
 /* Load of a connection after a sub-step. */
 static void carry(const bda_carried_loads *all, int64_t step, int64_t row, carried_load *load)
 {
@@ -221,22 +215,64 @@ static void note(const bda_judging *j, int64_t at, const double force[3], const 
     }
 }
 
-/* Utilisation, by what is left, of the cuts through both shards of a connection. What a face carries is worked out for
- * each cut: mostly few are overloaded alone, and numbers that are kept take longer to find again. */
-static double used_in_both(const bda_judging *j, const bda_carried_loads *all, int64_t row)
+/* Loads of connections, as bodies carry them, or as they are given. What a face carries is worked out for each section:
+ * mostly few are overloaded alone, and numbers that are kept take longer to find again. */
+typedef struct {
+    const bda_carried_loads *carried;
+    const bda_loads_in_cuts *given;
+} loads_of_faces;
+
+/* Utilisation of a cut through faces that are found, by whole strengths. */
+static double used_by_faces(const bda_judging *j, loads_of_faces loads, const bda_cut_through *through, int64_t row,
+                            int64_t count, double axes[3][3])
 {
-    double axes[3][3], sides[2];
-    turn_axes(all, row, axes);
-    for (int side = 0; side < 2; side++) {
-        int64_t count = intact_faces(j, row + side * j->connections);
-        for (int64_t at = 0; at < count; at++) {
-            carried_load load;
-            carry(all, 0, j->through[j->found[at]].face, &load);
+    for (int64_t at = 0; at < count; at++) {
+        int64_t face = through[j->found[at]].face;
+        carried_load load;
+        if (loads.given) {
+            note(j, at, loads.given->forces + 3 * face, loads.given->moments + 3 * face, loads.given->points + 3 * face);
+        } else {
+            carry(loads.carried, 0, face, &load);
             note(j, at, load.force, load.moment, load.point);
         }
-        sides[side] = used_in_cut(j, j->through, row, count, axes);
     }
-    return (sides[0] + sides[1]) / 2.0 / j->left[row];
+    return used_in_cut(j, through, row, count, axes);
+}
+
+/* Find the intact faces of a member's section that hang together with a connection, and return how many there are; -1
+ * where there are more than there is room for, or numbers are out of range. */
+static int64_t faces_of_section(const bda_judging *j, int64_t row)
+{
+    int64_t count = 0;
+    for (int64_t entry = 0; entry < j->sizes[row]; entry++) {
+        int64_t face = j->sections[j->firsts[row] + entry].face;
+        if (face < 0 || face >= j->connections || count == j->most_faces)
+            return -1;
+        if (j->intact[face] && j->parts[face] == j->parts[row])
+            j->found[count++] = entry;
+    }
+    return count;
+}
+
+/* Find the utilisation of a connection with the faces beside it, by whole strengths: of the section of its member, or the
+ * mean of its two cuts where there is none that is whole. */
+static int use_together(const bda_judging *j, loads_of_faces loads, int64_t in_members, int64_t row, double axes[3][3],
+                        double *used)
+{
+    double sides[2];
+    if (in_members && j->firsts[row] < 0)
+        return BDA_OUT_OF_RANGE;
+    if (in_members && j->whole[row]) {
+        int64_t count = faces_of_section(j, row);
+        if (count < 0)
+            return BDA_OUT_OF_RANGE;
+        *used = used_by_faces(j, loads, j->sections + j->firsts[row], row, count, axes);
+        return BDA_DONE;
+    }
+    for (int side = 0; side < 2; side++)
+        sides[side] = used_by_faces(j, loads, j->through, row, intact_faces(j, row + side * j->connections), axes);
+    *used = (sides[0] + sides[1]) / 2.0;
+    return BDA_DONE;
 }
 
 /* Write forces, moments and points (3, s, m) of all connections. */
@@ -272,17 +308,25 @@ int bda_over_alone(bda_judging *j, const bda_carried_loads *all)
     return BDA_DONE;
 }
 
-/* Find those that loads overload alone and in their cuts, with their utilisations in these. */
-int bda_over_in_cuts(bda_judging *j, const bda_carried_loads *all)
+/* Keep those that loads overload alone of which the same holds with the faces beside them, with their utilisations in
+ * these. In members a face may carry so many times its strength, `redistributed`, as long as its section holds. */
+int bda_over_together(bda_judging *j, const bda_carried_loads *all, int64_t in_members, double redistributed)
 {
-    int answer = bda_over_alone(j, all);
     int64_t alone = j->count;
-    if (answer != BDA_DONE || !alone)
-        return answer;
     j->count = 0;
+    if (all->substeps != 1 || all->connections != j->connections || alone < 0 || alone > j->connections ||
+        !all_below(j->rows, alone, j->connections))
+        return BDA_OUT_OF_RANGE;
     for (int64_t number = 0; number < alone; number++) {
         int64_t row = j->rows[number];
-        double used = used_in_both(j, all, row);
+        double axes[3][3], used;
+        turn_axes(all, row, axes);
+        int answer = use_together(j, (loads_of_faces){all, 0}, in_members, row, axes, &used);
+        if (answer != BDA_DONE)
+            return answer;
+        used = used / j->left[row];
+        if (in_members)
+            used = larger(used, j->used[number] / redistributed);
         if (used > 1.0) {
             j->rows[j->count] = row;
             j->used[j->count++] = used;
@@ -291,66 +335,20 @@ int bda_over_in_cuts(bda_judging *j, const bda_carried_loads *all)
     return BDA_DONE;
 }
 
-/* Axes of a section that are given as columns, one after another. */
-static void given_axes(const double *columns, double axes[3][3])
-{
-    for (int axis = 0; axis < 3; axis++)
-        for (int line = 0; line < 3; line++)
-            axes[axis][line] = columns[3 * line + axis];
-}
-
-/* Utilisation of a cut through faces that are found, by loads that are given. */
-static double used_by_given(const bda_judging *j, const bda_loads_in_cuts *loads, const bda_cut_through *through,
-                            int64_t number, int64_t count)
-{
-    double axes[3][3];
-    given_axes(loads->axes + 9 * number, axes);
-    for (int64_t at = 0; at < count; at++) {
-        int64_t face = 3 * through[j->found[at]].face;
-        note(j, at, loads->forces + face, loads->moments + face, loads->points + face);
-    }
-    return used_in_cut(j, through, loads->rows[number], count, axes);
-}
-
-/* Write mean utilisations of the two cuts of some connections. */
-int bda_used_in_cuts(const bda_judging *j, const bda_loads_in_cuts *loads)
+/* Write utilisations of some connections with the faces beside them, by loads that are given. */
+int bda_used_together(const bda_judging *j, const bda_loads_in_cuts *loads, int64_t in_members)
 {
     for (int64_t number = 0; number < loads->count; number++) {
         int64_t row = loads->rows[number];
+        double axes[3][3];
         if (row < 0 || row >= j->connections)
             return BDA_OUT_OF_RANGE;
-        double first = used_by_given(j, loads, j->through, number, intact_faces(j, row));
-        double second = used_by_given(j, loads, j->through, number, intact_faces(j, row + j->connections));
-        loads->used[number] = (first + second) / 2.0;
-    }
-    return BDA_DONE;
-}
-
-/* Find the intact faces of a section that hang together with a connection, and return how many there are; -1 where there
- * are more than there is room for, or numbers are out of range. */
-static int64_t faces_that_hang_together(const bda_judging *j, const bda_loads_in_cuts *loads, int64_t number)
-{
-    int64_t count = 0, own = loads->parts[loads->rows[number]];
-    for (int64_t entry = loads->starts[number]; entry < loads->starts[number + 1]; entry++) {
-        int64_t face = loads->through[entry].face;
-        if (face < 0 || face >= j->connections || count == j->most_faces)
-            return -1;
-        if (j->intact[face] && loads->parts[face] == own)
-            j->found[count++] = entry;
-    }
-    return count;
-}
-
-/* Write utilisations of one section of each of some connections, through other faces than those of its two cuts. */
-int bda_used_in_sections(const bda_judging *j, const bda_loads_in_cuts *loads)
-{
-    for (int64_t number = 0; number < loads->count; number++) {
-        if (loads->rows[number] < 0 || loads->rows[number] >= j->connections || loads->starts[number] < 0)
-            return BDA_OUT_OF_RANGE;
-        int64_t count = faces_that_hang_together(j, loads, number);
-        if (count < 0)
-            return BDA_OUT_OF_RANGE;
-        loads->used[number] = used_by_given(j, loads, loads->through, number, count);
+        for (int axis = 0; axis < 3; axis++) /* given as columns */
+            for (int line = 0; line < 3; line++)
+                axes[axis][line] = loads->axes[9 * number + 3 * line + axis];
+        int answer = use_together(j, (loads_of_faces){0, loads}, in_members, row, axes, loads->used + number);
+        if (answer != BDA_DONE)
+            return answer;
     }
     return BDA_DONE;
 }

@@ -53,6 +53,12 @@ typedef struct {
     const double *pressed, *friction;         /* (m,), by how much more is left in compression; none where it is no help */
     const int64_t *starts;                    /* (2 m + 1,), first face of each cut: through first shards, then second */
     const bda_cut_through *through;           /* (e,) */
+    /* Sections of members, and of each connection (m,) its first face there, -1 where they are not known, how many there
+     * are, whether it is a whole section of its member, and what hangs together, which no section goes beyond. */
+    const bda_cut_through *sections;
+    const int64_t *firsts, *sizes;
+    const uint8_t *whole;
+    const int64_t *parts;
     int64_t *found;                           /* room for the faces of a cut, (f,) */
     double *noted, *lines;                    /* (f, 9) force, moment and point of each, (9, f) what is added up */
     int64_t *rows;                            /* (m,), overloaded connections */
@@ -66,17 +72,14 @@ typedef struct {
     const int64_t *rows;                      /* (r,) */
     const double *axes;                       /* (r, 3, 3), as columns */
     const double *forces, *moments, *points;  /* (m, 3) */
-    const int64_t *starts;                    /* (r + 1,), first face of a section of each, where it is not judged by cuts */
-    const bda_cut_through *through;           /* (e,) */
-    const int64_t *parts;                     /* (m,), what hangs together, which no section goes beyond */
-    double *used;                             /* (r,), utilisations by whole strengths: of the section, or the mean of cuts */
+    double *used;                             /* (r,), utilisations by whole strengths */
 } bda_loads_in_cuts;
 
 BDA_API int bda_carry(const bda_carried_loads *loads, double *forces, double *moments, double *points);
 BDA_API int bda_over_alone(bda_judging *judging, const bda_carried_loads *loads);
-BDA_API int bda_over_in_cuts(bda_judging *judging, const bda_carried_loads *loads);
-BDA_API int bda_used_in_cuts(const bda_judging *judging, const bda_loads_in_cuts *loads);
-BDA_API int bda_used_in_sections(const bda_judging *judging, const bda_loads_in_cuts *loads);
+BDA_API int bda_over_together(bda_judging *judging, const bda_carried_loads *loads, int64_t in_members,
+                              double redistributed);
+BDA_API int bda_used_together(const bda_judging *judging, const bda_loads_in_cuts *loads, int64_t in_members);
 BDA_API int bda_rectangles(int64_t count, const double *areas, const double *second, double *directions, double *bending,
                            double *torsion);
 BDA_API int bda_utilisations(int64_t count, const bda_resisting *resisting, const double *forces, const double *friction,

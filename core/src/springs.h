@@ -9,6 +9,7 @@
 #include <math.h>
 
 #include "joints.h"
+#include "terms.h"
 
 /* Where p springs are: on bodies above and below, at anchors (3, p) from the centres of these, in their axes. */
 typedef struct {
@@ -25,10 +26,40 @@ typedef struct {
     const uint8_t *pulls;
 } bda_spring_law;
 
+/* All springs of c connections, and what has become of them by now. */
+typedef struct {
+    const bda_spring_places *at;
+    const bda_spring_law *law;
+    int64_t connections;
+    const int64_t *of;        /* (p,), connection of each, in ascending order */
+    double *free;             /* (3, p), gaps at which they resist nothing */
+    double *holding;          /* (p,), pressing forces by which they hold sideways: `pressed` of the law */
+    double *touching;         /* (c,), part of the stiffness of each connection that acts */
+} bda_springs;
+
+/* Bearings, of whose pads these are the springs. */
+typedef struct {
+    int64_t bearings;
+    const int64_t *numbers, *first, *second; /* (c,), bearing and bodies of each connection */
+    const uint8_t *pulls;                    /* (c,), whether it holds what is lifted */
+    const double *travel, *breaking;         /* (c,), m and N, displacement and force at which it is left or breaks */
+    const double *built_turns;               /* (3, 3, c), first bodies in the axes of second ones */
+    double lifted, least_cosines, overturned; /* m; 1 + 2 cos of angles from which on edges carry, and none holds */
+    double *pressed;                         /* (p,), pressing forces as they were solved last, none before that */
+    double *forces;                          /* (3, c), on what lies above */
+    double *whole;                           /* (3, b), room for sums of bearings */
+    uint8_t *gone;                           /* (c,), whether its bodies have left each other */
+} bda_pads;
+
+BDA_API int bda_springs_begin(const bda_springs *springs, const bda_places *places, const bda_term *term);
+BDA_API int bda_springs_energy(const bda_springs *springs, const bda_places *places, double *energies);
+BDA_API int bda_soil_settle(const bda_springs *springs, const bda_places *places);
+BDA_API int bda_pads_settle(const bda_springs *springs, const bda_pads *pads, const bda_places *places);
+BDA_API int bda_pads_failed(const bda_springs *springs, const bda_pads *pads, const uint8_t *intact, const double *left,
+                            uint8_t *failed);
 BDA_API int bda_spring_gaps(const bda_spring_places *springs, const bda_places *places, double *gaps, double *arms_above,
                             double *arms_below);
 BDA_API int bda_springs_resisted(const bda_spring_law *law, const double *gaps, double *forces, double *tangents);
-BDA_API int bda_springs_stored(const bda_spring_law *law, const double *gaps, double *energies);
 
 /* Force of a spring on what lies above, and by how much it falls with the gap. */
 static inline void force_of_spring(const bda_spring_law *s, int64_t row, const double gap[3], double force[3],

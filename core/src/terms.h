@@ -32,12 +32,16 @@ typedef struct {
     double *normals, *pressed, *rests, *grips;
     double dowel, sheared;
     /* Springs. */
-    const double *vertical, *sideways, *capacity, *friction, *pressed_by;
+    const double *vertical, *sideways, *capacity, *friction;
+    double *pressed_by;
     const uint8_t *pulls, *above_first; /* (q,); (c,) */
     double *solved_up;                  /* (q,), N, upward forces as they are solved; NULL where nobody asks */
     /* Bare bars. */
-    const double *lengths, *bared, *stays, *pulled_limits, *pressed_limits, *bared_lines;
-    const uint8_t *holds;
+    double *lengths;
+    const double *bared;
+    double *stays, *pulled_limits, *pressed_limits;
+    const double *bared_lines;
+    uint8_t *holds;
     int64_t held_sideways;
 } bda_term;
 

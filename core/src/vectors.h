@@ -41,6 +41,12 @@ static inline int all_below(const int64_t *numbers, int64_t count, int64_t bound
     return 1;
 }
 
+/* Larger of two numbers; none where one of them is none. */
+static inline double larger(double one, double other)
+{
+    return one != one || one > other ? one : other;
+}
+
 static inline double dot3(const double a[3], const double b[3])
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];

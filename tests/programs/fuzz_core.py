@@ -10,7 +10,7 @@ import time
 from pathlib import Path
 
 import numpy as np
-from support.core_terms import forces_and_tangents, term_of_law
+from support.core_terms import forces_and_tangents, term_in_substep, term_of_law
 
 from bridge_demolition_addon.bullet.body_motion import BodyMotionReader, BulletBodies
 from bridge_demolition_addon.bullet.constraint_rows import BulletRows
@@ -22,6 +22,7 @@ from bridge_demolition_addon.engineering.blast.pulses import Pulses, impulse_bet
 from bridge_demolition_addon.engineering.core import library
 from bridge_demolition_addon.engineering.core.calls import answer_of, call
 from bridge_demolition_addon.engineering.drilled_charges.cages import BareBars, Cages
+from bridge_demolition_addon.engineering.elasticity.bearings import Bearings, PadSprings
 from bridge_demolition_addon.engineering.elasticity.cracks import Cracks, ExpectedCracks, corner_positions
 from bridge_demolition_addon.engineering.elasticity.equations import BlockSystem, RigidBodies
 from bridge_demolition_addon.engineering.elasticity.joint_rows import JointFrames
@@ -39,6 +40,7 @@ from bridge_demolition_addon.engineering.elasticity.substep import (
     Term,
     deformations,
 )
+from bridge_demolition_addon.engineering.foundations import Footings, SoilSprings
 from bridge_demolition_addon.engineering.geometry.hulls import ConvexHulls
 from bridge_demolition_addon.engineering.geometry.vectors import symmetric_eigenvectors
 from bridge_demolition_addon.engineering.mechanics.carried_sections import CarriedSections, MemberSections
@@ -141,7 +143,7 @@ class Cases:
         cracks.grip(*places)
         cracks.state(*places)
         chosen = self.among(self.count(4), len(cracks))
-        term = cracks.in_substep(chosen, *places, 0.01)
+        term = term_in_substep(cracks, chosen, *places)
         moving = self.numbers(bodies), self.numbers(3, 3, bodies), self.numbers(6, bodies)
         ExpectedCracks.of(term, Places.of(*places), *moving, 0.01)
 
@@ -154,7 +156,39 @@ class Cases:
         law = [self.numbers(count), self.numbers(2, count), self.numbers(count), self.numbers(count)]
         springs = PressedSprings(*law, self.rng.integers(0, 2, count).astype(bool), self.numbers(count))
         springs.resisted(self.odd(gaps))
-        springs.stored_j(self.odd(gaps))
+
+    def of_bearings(self):
+        """Pads and footings that settle and fail, of bodies and connections that there may not be."""
+        rng, bodies, connections = self.rng, 1 + self.count(5), self.count(4)
+        of = np.sort(self.among(self.count(9), connections))
+        count, ends = len(of), [self.among(connections, bodies) for _ in range(2)]
+        pads = PadSprings(
+            np.arange(connections),
+            of,
+            self.numbers(count, 3),
+            self.numbers(count),
+            self.numbers(count, 2),
+            np.where(self.flags(connections), np.inf, 0.5),
+            self.flags(connections),
+            self.numbers(connections),
+            self.among(connections, 3),
+            self.numbers(connections),
+        )
+        built, places = self.places(bodies), self.places(bodies if rng.integers(6) else 1)
+        soil = SoilSprings(
+            *(np.arange(connections), of, self.numbers(count, 3), self.numbers(count)),
+            *(self.numbers(connections) for _ in range(4)),
+        )
+        springs = (
+            Bearings(pads, *ends, ends[0], *built),
+            Footings(soil, *ends, rng.integers(0, 2, bodies).astype(bool), *built),
+        )
+        for law in springs:
+            law.update_plastic_state(*places)
+            law.stored_j(*places)
+            term = term_in_substep(law, np.unique(self.among(3, connections)), *places)
+            forces_and_tangents(term, rng.normal(size=(3, term.gaps)))
+        springs[0].failed(self.flags(connections), self.numbers(connections))
 
     def flags(self, *shape):
         return self.odd(self.rng.integers(0, 2, shape).astype(bool))
@@ -199,7 +233,8 @@ class Cases:
             structure.step(start, np.ones(connections, bool), 0.002)
             structure.update_plastic_state(*places)
             structure.end_substep()
-        term = cages.in_substep(self.among(self.count(4), count), *places, 0.002)
+        cages.forces_n(*places)
+        term = term_in_substep(cages, self.among(self.count(4), count), *places)
         forces_and_tangents(term, self.rng.normal(size=(1, term.gaps)))
 
     def connected(self, bodies, count):
@@ -227,7 +262,9 @@ class Cases:
         members = MemberSections(faces, centres, moves, kinds, thicknesses)
         judging = Overloads(faces, moves, MATERIALS["concrete"], members, **further)
         flags, alone = self.flags(count), self.numbers(len(rows))
-        judging.together(rows, alone, at_once, axes, flags, left, self.odd(rng.integers(-1, 3, count)))
+        parts = self.odd(rng.integers(-1, 3, count))
+        judging.together(rows, alone, at_once, axes, flags, left, parts)
+        judging.breaking(flags, sections, loads, *places, left, parts)
 
     def of_frame_loads(self):
         bodies, count, substeps, points = 1 + self.count(6), self.count(9), 1 + self.count(3), self.count(5)

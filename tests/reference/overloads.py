@@ -6,7 +6,12 @@ from __future__ import annotations
 import numpy as np
 
 from bridge_demolition_addon.engineering.geometry.proximity import ranges
-from bridge_demolition_addon.engineering.geometry.vectors import carried_points, cross_by_component, product
+from bridge_demolition_addon.engineering.geometry.vectors import (
+    carried_axes,
+    carried_points,
+    cross_by_component,
+    product,
+)
 from bridge_demolition_addon.engineering.mechanics.carried_sections import CarriedSections
 from bridge_demolition_addon.engineering.mechanics.section_cuts import (
     ConnectedFaces,
@@ -37,6 +42,11 @@ def loads_at_once(sections: CarriedSections, loads: np.ndarray, *places: np.ndar
     positions_m, rotations = places
     found = carried_loads(sections, loads[:, None], positions_m[:, None], rotations[:, :, None])
     return ConnectionLoads(found.forces_n[0], found.moments_nm[0], found.points_m[0])
+
+
+def section_axes_of(sections: CarriedSections, rows: np.ndarray, rotations: np.ndarray) -> np.ndarray:
+    """Return the axes (r, 3, 3) of connections (r,), as columns, under rotations (3, 3, n) of the bodies."""
+    return carried_axes(sections.axes[rows], sections.bodies[rows], rotations.transpose(2, 0, 1))
 
 
 def forces_in_sections(sections: CarriedSections, loads: np.ndarray, *places: np.ndarray) -> SectionForces:
@@ -104,6 +114,6 @@ class ReferenceOverloads:
         """Return which connections are overloaded alone and in cuts, and their utilisations in these."""
         *places, left = places_and_left
         rows, _ = self.over_alone(intact, sections, loads, *places_and_left)
-        of_all, axes = loads_at_once(sections, loads, *places), sections.carried_axes(rows, places[1])
+        of_all, axes = loads_at_once(sections, loads, *places), section_axes_of(sections, rows, places[1])
         used = self.in_cuts(rows, of_all, axes, intact) / left[rows]
         return rows[used > 1.0], used[used > 1.0]

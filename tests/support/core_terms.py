@@ -15,6 +15,13 @@ def forces_and_tangents(term, moved):
     return forces, term.arrays["tangents"]
 
 
+def term_in_substep(law, chosen, *places):
+    """Return what some of a law (c,) do as a sub-step begins with bodies in certain places."""
+    term = law.term(chosen)
+    law.begin(term, *places)
+    return term
+
+
 def term_of_law(kind, law, gaps_m, of_gap=None, above_first=None):
     """Return a term with these gaps (3, q) and a law, all of whose gaps are between two bodies."""
     count = gaps_m.shape[1]
@@ -27,4 +34,4 @@ def term_of_law(kind, law, gaps_m, of_gap=None, above_first=None):
         settings = {"held_sideways": 0}
     ends = np.zeros(count, int), np.ones(count, int)
     remembered = np.full((12, count), np.nan)
-    return Term.of(kind, rows, of_gap, np.arange(count), remembered, ends, (none, none), gaps_m, law, **settings)
+    return Term.of(kind, rows, rows, of_gap, np.arange(count), remembered, ends, (none, none), gaps_m, law, **settings)

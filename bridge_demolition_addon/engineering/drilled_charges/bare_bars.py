@@ -66,35 +66,17 @@ def slender_from_m(diameter_m: ArrayLike, yield_pa: ArrayLike = YIELD_PA) -> Flo
     return height
 
 
-def bow_m(bared_m: ArrayLike, shortened_m: ArrayLike) -> FloatArray:
-    """Return how far the middle of a bar moves aside that folds in its middle and at its ends: (l / 2) sin θ.
-
-    Its ends come closer by l (1 - cos θ).
-    """
-    bared = np.asarray(bared_m, float)
-    straight = 1.0 - np.clip(np.asarray(shortened_m, float) / bared, 0.0, 1.0)
-    bow: FloatArray = 0.5 * bared * np.sqrt(1.0 - straight * straight)
-    return bow
-
-
-def folding_force_n(
-    diameter_m: ArrayLike,
-    bared_m: ArrayLike,
-    shortened_m: ArrayLike,
-    yield_pa: ArrayLike = YIELD_PA,
-    *,
-    straight: bool = True,
+def largest_compression_n(
+    diameter_m: ArrayLike, bared_m: ArrayLike, yield_pa: ArrayLike = YIELD_PA, *, straight: bool = True
 ) -> FloatArray:
-    """Return what a bar resists in compression whose ends have come closer for good.
+    """Return what a bar resists until it folds: its buckling load if `straight`, or else what it may be counted on for.
 
-    At first that is what one resists that is `straight`, or else what it may be counted on for.
-
-    The hinges resist N w = 2 M, with M = M_p (1 - (N / N_p)²) of a rectangle, which a round bar has within 3 % of M_p:
-    limit analysis, as in N. Jones (2011), Structural Impact, 2nd edition, chapter 9. M_p is f_y d³ / 6.
+    As it folds it resists the less of this and of its hinges (`core/src/cages.c`).
     """
-    diameter = np.asarray(diameter_m, float)
-    squash, bow = yield_force_n(diameter, yield_pa), bow_m(bared_m, shortened_m)
-    arm = 4.0 / (3.0 * np.pi) * diameter  # 2 M_p / N_p
-    share = (np.sqrt(bow * bow + 4.0 * arm * arm) - bow) / (2.0 * arm)
-    most = buckling_force_n(diameter, bared_m) if straight else compression_n(diameter, bared_m, yield_pa)
-    return np.minimum(most, share * squash)
+    return buckling_force_n(diameter_m, bared_m) if straight else compression_n(diameter_m, bared_m, yield_pa)
+
+
+def hinge_arm_m(diameter_m: ArrayLike) -> FloatArray:
+    """Return the moment of two plastic hinges by the yield force, 2 M_p / N_p: M_p of a round bar is f_y d³ / 6."""
+    arm: FloatArray = 4.0 / (3.0 * np.pi) * np.asarray(diameter_m, float)
+    return arm

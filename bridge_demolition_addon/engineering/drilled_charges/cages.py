@@ -16,16 +16,20 @@ All arrays have their components first.
 
 from __future__ import annotations
 
+import ctypes
 from dataclasses import dataclass, fields, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray
-from ..elasticity.joint_rows import dot_products, turned, turned_back
+from ..core.calls import call
+from ..core.structs import Count, Doubles, Indices, Struct, WrittenDoubles, WrittenFlags
+from ..elasticity.joint_rows import dot_products, turned_back
 from ..elasticity.steel_bars import MODULUS_PA, USUAL_STEEL
-from ..elasticity.substep import BARE_BARS, Term
-from .bare_bars import bar_area_m2, folding_force_n, yield_force_n
+from ..elasticity.substep import BARE_BARS, Places, Term
+from .bare_bars import bar_area_m2, hinge_arm_m, largest_compression_n, yield_force_n
 
 RUPTURE_STRAIN = USUAL_STEEL.rupture_strain
 
@@ -51,7 +55,21 @@ class BareBars:
         return self.counts * yield_force_n(self.diameters_m, self.yields_pa)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+class GroupsInCore(Struct):
+    """Groups as the core takes them: `bda_cages` in `core/src/cages.h`."""
+
+    _fields_ = (
+        ("count", Count),
+        *((name, Indices) for name in ("first", "second")),
+        *((name, Doubles) for name in ("first_anchors", "second_anchors", "bared", "counts", "shares")),
+        *((name, Doubles) for name in ("squash", "most", "arms", "stiffness")),
+        *((name, WrittenDoubles) for name in ("stays", "pressed")),
+        ("holds", WrittenFlags),
+        *((name, ctypes.c_double) for name in ("rupture_strain", "folded_up")),
+    )
+
+
+@dataclass(frozen=True, eq=False)
 class _Groups:
     """State of g groups of bars: anchors in the axes of their bodies, and what they have yielded by."""
 
@@ -70,16 +88,14 @@ class _Groups:
     shares: FloatArray  # (g,), part of what they resist that is counted on
     straight: bool  # whether they are without any bow
 
+    def __getstate__(self) -> dict[str, object]:
+        """Return what a copy has: where its arrays are in memory is its own."""
+        return {name: value for name, value in self.__dict__.items() if name != "core"}
+
     def joined(self, others: _Groups) -> _Groups:
         """Return these and others."""
         pairs = {name: (getattr(self, name), getattr(others, name)) for name in _ARRAYS}
-        return self._with({name: np.concatenate(pair, axis=-1) for name, pair in pairs.items()})
-
-    def only(self, which: IntArray) -> _Groups:
-        """Return some of them."""
-        return self._with({name: getattr(self, name)[..., which] for name in _ARRAYS})
-
-    def _with(self, arrays: dict[str, Any]) -> _Groups:
+        arrays: dict[str, Any] = {name: np.concatenate(pair, axis=-1) for name, pair in pairs.items()}
         return replace(self, **arrays)
 
     @property
@@ -87,29 +103,27 @@ class _Groups:
         """Force (g,) by elongation, E A / l."""
         return self.counts * MODULUS_PA * bar_area_m2(self.diameters_m) / self.bared_m
 
-    @property
-    def limits_n(self) -> tuple[FloatArray, FloatArray]:
-        """Largest forces (g,) in tension and in compression."""
-        yields = self.counts * yield_force_n(self.diameters_m, self.yields_pa)
-        folded_m = np.maximum(-self.stays_m, 0.0)
-        folding = self.counts * folding_force_n(
-            self.diameters_m, self.bared_m, folded_m, self.yields_pa, straight=self.straight
+    @cached_property
+    def core(self) -> GroupsInCore:
+        """What the core works on, which changes what is here."""
+        count, squash_n = len(self.first), yield_force_n(self.diameters_m, self.yields_pa)
+        most_n = largest_compression_n(self.diameters_m, self.bared_m, self.yields_pa, straight=self.straight)
+        return GroupsInCore(count=count, rupture_strain=RUPTURE_STRAIN, folded_up=_FOLDED_UP).take(
+            first=(self.first, count),
+            second=(self.second, count),
+            first_anchors=(self.first_anchors_m, 3 * count),
+            second_anchors=(self.second_anchors_m, 3 * count),
+            bared=(self.bared_m, count),
+            counts=(self.counts, count),
+            shares=(self.shares, count),
+            squash=(squash_n, count),
+            most=(most_n, count),
+            arms=(hinge_arm_m(self.diameters_m), count),
+            stiffness=(self.stiffness_n_m, count),
+            stays=(self.stays_m, count),
+            pressed=(self.pressed_n, count),
+            holds=(self.holds, count),
         )
-        return self.shares * np.where(folded_m > 0.0, folding, yields), self.shares * folding
-
-    def forces_n(self, elongations_m: FloatArray) -> FloatArray:
-        """Return the forces (g,), above 0 in tension, at elongations (g,) since they were bared."""
-        return self.forces_within(elongations_m, *self.limits_n)
-
-    def forces_within(self, elongations_m: FloatArray, pulled_n: FloatArray, pressed_n: FloatArray) -> FloatArray:
-        """Return the same with largest forces (g,) in tension and in compression that are known already."""
-        return self.holds * np.clip(self.stiffness_n_m * (elongations_m - self.stays_m), -pressed_n, pulled_n)
-
-    def lines(self, positions_m: FloatArray, rotations: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Return the lines (3, g) from their first to their second points, and arms (3, g) of these on the bodies."""
-        first = turned(rotations[..., self.first], self.first_anchors_m)
-        second = turned(rotations[..., self.second], self.second_anchors_m)
-        return positions_m[:, self.second] + second - positions_m[:, self.first] - first, first, second
 
 
 _ARRAYS = tuple(item.name for item in fields(_Groups) if item.name != "straight")
@@ -130,7 +144,7 @@ class Cages:
         self._groups = _Groups(
             numbers, numbers, points, points, none, none, none, none, none, none, none > 0.0, points, none, straight
         )
-        self._remembered = np.zeros((12, 0))
+        self.remembered = np.zeros((12, 0))  # what the core knows of the last sub-step
 
     def __len__(self) -> int:
         return len(self._groups.first)
@@ -168,7 +182,7 @@ class Cages:
             self._groups.straight,
         )
         self._groups = self._groups.joined(added)
-        self._remembered = np.concatenate((self._remembered, np.full((12, count), np.nan)), axis=1)
+        self.remembered = np.concatenate((self.remembered, np.full((12, count), np.nan)), axis=1)
         return len(self) - count + np.arange(count)
 
     @property
@@ -183,29 +197,13 @@ class Cages:
 
     def update_plastic_state(self, positions_m: FloatArray, rotations: FloatArray) -> None:
         """Take over, before a sub-step, what has yielded, folded or ruptured by now."""
-        groups = self._groups
-        line, *_ = groups.lines(positions_m, rotations)
-        size = np.sqrt(dot_products(line, line))
-        elongations = size - groups.bared_m
-        forces = groups.forces_n(elongations)
-        np.maximum(groups.pressed_n, -forces, out=groups.pressed_n)
-        elastic = np.divide(forces, groups.stiffness_n_m)
-        groups.stays_m[groups.holds] = (elongations - elastic)[groups.holds]
-        ruptured = groups.stays_m > RUPTURE_STRAIN * groups.bared_m
-        groups.holds[ruptured | (size < _FOLDED_UP * groups.bared_m)] = False
-
-    def stored_j(self, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
-        """Return the energy (g,) that the bars would give back."""
-        groups = self._groups
-        line, *_ = groups.lines(positions_m, rotations)
-        forces = groups.forces_n(np.sqrt(dot_products(line, line)) - groups.bared_m)
-        stored: FloatArray = 0.5 * forces * forces / groups.stiffness_n_m
-        return stored
+        call("bda_cages_settle", self._groups.core, Places.of(positions_m, rotations))
 
     def forces_n(self, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
         """Return the forces (g,) along their lines, above 0 in tension."""
-        line, *_ = self._groups.lines(positions_m, rotations)
-        return self._groups.forces_n(np.sqrt(dot_products(line, line)) - self._groups.bared_m)
+        forces = np.empty(len(self))
+        call("bda_cages_forces", self._groups.core, Places.of(positions_m, rotations), forces)
+        return forces
 
     def pressed_n(self, chosen: IntArray) -> FloatArray:
         """Return the largest forces (k,) in compression that some groups have had so far."""
@@ -215,33 +213,31 @@ class Cages:
         """Return by how much the ends of some groups (k,) have come closer for good."""
         return np.maximum(-self._groups.stays_m[chosen], 0.0)
 
-    def in_substep(self, chosen: IntArray, positions_m: FloatArray, rotations: FloatArray, substep_s: float) -> Term:
-        """Return what some groups (k,) do in a sub-step of a length in s."""
-        groups = self._groups.only(chosen)
-        line, first_arms, second_arms = groups.lines(positions_m, rotations)
-        length = np.sqrt(dot_products(line, line))
-        pulled_n, pressed_n = groups.limits_n
-        law = {
-            "yields": groups.counts * yield_force_n(groups.diameters_m, groups.yields_pa),
-            "stiffness": groups.stiffness_n_m,
-            "directions": line / np.where(length > 0.0, length, 1.0),
-            "lengths": length,
-            "bared": groups.bared_m,
-            "stays": groups.stays_m,
-            "pulled_limits": pulled_n,
-            "pressed_limits": pressed_n,
-            "bared_lines": groups.lines_m,
-            "holds": groups.holds,
+    def term(self, chosen: IntArray) -> Term:
+        """Return what some groups (k,) do, as long as there are the same; `begin` comes before each sub-step."""
+        groups, count = self._groups, len(chosen)
+        law = {name: np.zeros(count) for name in ("lengths", "stays", "pulled_limits", "pressed_limits")} | {
+            "yields": (groups.counts * yield_force_n(groups.diameters_m, groups.yields_pa))[chosen],
+            "stiffness": groups.stiffness_n_m[chosen],
+            "directions": np.zeros((3, count)),
+            "bared": groups.bared_m[chosen],
+            "bared_lines": groups.lines_m[:, chosen],
+            "holds": groups.holds[chosen],
         }
         return Term.of(
             BARE_BARS,
             self.rows[chosen],
-            np.arange(len(chosen)),
             chosen,
-            self._remembered,
-            (groups.first, groups.second),
-            (first_arms, second_arms),
-            line,
+            np.arange(count),
+            chosen,
+            self.remembered,
+            (groups.first[chosen], groups.second[chosen]),
+            (np.zeros((3, count)), np.zeros((3, count))),
+            np.zeros((3, count)),
             law,
             held_sideways=int(self._held_sideways),
         )
+
+    def begin(self, term: Term, positions_m: FloatArray, rotations: FloatArray) -> None:
+        """Have a term begin a sub-step with bodies at these positions."""
+        call("bda_cages_begin", self._groups.core, Places.of(positions_m, rotations), term)

@@ -14,15 +14,24 @@ All arrays have their components first, except places.
 
 from __future__ import annotations
 
+import ctypes
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray
+from ..core.calls import call
+from ..core.structs import Count, Doubles, Flags, Indices, Struct, WrittenDoubles, WrittenFlags
 from .joint_rows import turned, turned_back
-from .springs import PressedSprings, SpringPositions, loads_of_springs, spring_term, stiffness_of_springs
-from .substep import Term
+from .springs import (
+    PressedSprings,
+    SpringPositions,
+    SpringsOfConnections,
+    loads_of_springs,
+    stiffness_of_springs,
+)
+from .substep import Places
 
 _LIFTED_M = 0.02
 """Opening from which on pins and guides of a bearing that holds no uplift are out of their holes."""
@@ -107,7 +116,21 @@ class PadsAtRest:
     loads: tuple[FloatArray, FloatArray]  # (6, c), on the first and on the second bodies
 
 
-class Bearings:
+class Pads(Struct):
+    """Bearings as the core takes them: `bda_pads` in `core/src/springs.h`."""
+
+    _fields_ = (
+        ("bearings", Count),
+        *((name, Indices) for name in ("numbers", "first", "second")),
+        ("pulls", Flags),
+        *((name, Doubles) for name in ("travel", "breaking", "built_turns")),
+        *((name, ctypes.c_double) for name in ("lifted", "least_cosines", "overturned")),
+        *((name, WrittenDoubles) for name in ("pressed", "forces", "whole")),
+        ("gone", WrittenFlags),
+    )
+
+
+class Bearings(SpringsOfConnections):
     """All bearings of a structure of n bodies, which has connections between bodies `first` and `second` (m,).
 
     `above` (c,) are the bodies that lie above in the connections of the springs. Positions (3, n) and rotations
@@ -123,13 +146,13 @@ class Bearings:
         positions_m: FloatArray,
         rotations: FloatArray,
     ):
-        self.rows, self._springs = springs.rows, springs
-        of, ends = springs.parts, (first[self.rows], second[self.rows])
-        self._positions = SpringPositions.built(of, springs.places_m, ends, above, positions_m, rotations)
+        self._springs = springs
+        of, ends = springs.parts, (first[springs.rows], second[springs.rows])
+        positions = SpringPositions.built(of, springs.places_m, ends, above, positions_m, rotations)
         self._above, self._ends = above, ends
         self._built_turns = self._turns(rotations)
         self._middles = turned_back(rotations[..., above], springs.middles_m().T - positions_m[:, above])
-        self._law = PressedSprings(
+        law = PressedSprings(
             springs.vertical_n_m,
             springs.sideways_n_m.T.copy(),
             np.full(len(of), np.inf),
@@ -137,28 +160,17 @@ class Bearings:
             springs.pulls[of],
             np.zeros(len(of)),
         )
-        self._free = np.zeros((3, len(of)))  # gaps at which springs resist nothing
-        self._forces_n = np.zeros((3, len(of)))
+        super().__init__(springs.rows, positions, law)
         self._pressed_n = np.full(len(of), np.nan)  # pressing forces as they were solved last
-        self._gone = np.zeros(len(self.rows), bool)
-        self._remembered = np.full((12, len(of)), np.nan)
+        self._pads: Pads | None = None
+
+    def __getstate__(self) -> dict[str, object]:
+        """Return what a copy has."""
+        return super().__getstate__() | {"_pads": None}
 
     def update_plastic_state(self, positions_m: FloatArray, rotations: FloatArray) -> None:
         """Take over, before a sub-step, how far springs have slid, and which bodies have left each other."""
-        gaps = self._positions.gaps(positions_m, rotations)[0]
-        unknown = np.isnan(self._pressed_n)
-        self._pressed_n[unknown] = self._pressing(gaps)[unknown]
-        self._law = replace(self._law, pressed_n=self._holding_by(self._pressed_n))
-        self._forces_n = self._law.resisted(gaps - self._free)[0]
-        sideways = self._law.sideways_n_m
-        slid = gaps[:2] + np.divide(self._forces_n[:2], sideways, out=np.zeros_like(sideways), where=sideways > 0.0)
-        slides = ~np.isinf(self._law.friction) | (~self._law.pulls & (self._law.pressed_n <= 0.0))
-        self._free[:2, slides] = slid[:, slides]
-        apart = self._positions.summed(gaps) / np.bincount(self._positions.of, minlength=len(self.rows))
-        far = np.sqrt((apart * apart).sum(axis=0)) > self._springs.travel_m
-        turns = (self._built_turns * self._turns(rotations)).sum(axis=(0, 1))  # 1 + 2 cos of the angle
-        unseated = (apart[2] > _LIFTED_M) | (turns < 3.0 - _LARGEST_TURN * _LARGEST_TURN)
-        self._gone = far | (unseated & ~self._springs.pulls) | (turns < _OVERTURNED)
+        call("bda_pads_settle", self._in_core(), self._pads_in_core(), Places.of(positions_m, rotations))
 
     def failed(self, intact: BoolArray, left: FloatArray) -> IntArray:
         """Return which connections (k,) of those (m,) that are intact break, as it settled last.
@@ -166,16 +178,9 @@ class Bearings:
         A connection breaks alone where its bodies have left each other, all of a bearing by its force; `left` (m,) is
         the part of its strength that each has.
         """
-        holds = intact[self.rows]
-        of_parts = self._positions.summed(self._forces_n) * holds
-        return self.rows[holds & (self._gone | (self._springs.utilisations(of_parts, left[self.rows]) > 1.0))]
-
-    @property
-    def touching(self) -> FloatArray:
-        """Part (c,) of the stiffness of each connection that acts, from 0 to 1, as it settled last."""
-        stiffness = self._law.vertical_n_m
-        acts = self._law.pulls | (self._pressed_n > 0.0)
-        return self._positions.summed(np.where(acts, stiffness, 0.0)) / self._positions.summed(stiffness)
+        failed = np.empty(len(self.rows), bool)
+        call("bda_pads_failed", self._in_core(), self._pads_in_core(), intact[self.rows], left[self.rows], failed)
+        return self.rows[failed]
 
     def diagonal(self) -> FloatArray:
         """Return the stiffness (6, c) along x, y and z, and about these, of connections that are pressed all over."""
@@ -184,11 +189,6 @@ class Bearings:
         along_x, along_y, up = *law.sideways_n_m, law.vertical_n_m
         about_z = x * x * along_y + y * y * along_x
         return self._positions.summed(np.stack((along_x, along_y, up, y * y * up, x * x * up, about_z)))
-
-    def stored_j(self, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
-        """Return the energy (c,) that the springs would give back."""
-        gaps = self._positions.gaps(positions_m, rotations)[0]
-        return self._positions.summed(self._law.stored_j(gaps - self._free))
 
     def pressed_at(self, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
         """Return the pressing forces (p,) by which springs hold sideways, with bodies at these positions."""
@@ -229,18 +229,31 @@ class Bearings:
         middles = turned(rotations[..., self._above], self._middles)[:, self._positions.of]
         return loads_of_springs(self._positions, forces, arms - middles, arms - middles)[0]
 
-    def in_substep(self, chosen: IntArray, positions_m: FloatArray, rotations: FloatArray, substep_s: float) -> Term:
-        """Return what some connections (c,) do in a sub-step of a length in s."""
-        gaps, arms, arms_below = self._positions.gaps(positions_m, rotations)
-        positions, which = self._positions.only(chosen)
-        gaps = gaps - self._free
-        of_chosen = gaps.take(which, axis=1), arms.take(which, axis=1), arms_below.take(which, axis=1)
+    def _solved(self, which: IntArray, forces_n: FloatArray) -> None:
+        self._pressed_n[which] = np.maximum(forces_n, 0.0)
 
-        def keep(forces_n: FloatArray) -> None:
-            self._pressed_n[which] = np.maximum(forces_n, 0.0)
-
-        law = self._law.only(which)
-        return spring_term(self.rows[chosen], positions, which, of_chosen, law, self._remembered, keep)
+    def _pads_in_core(self) -> Pads:
+        if self._pads is None:
+            springs, count, bearings = self._springs, len(self.rows), int(self._springs.bearings.max(initial=-1)) + 1
+            self._pads = Pads(
+                bearings=bearings,
+                lifted=_LIFTED_M,
+                least_cosines=3.0 - _LARGEST_TURN * _LARGEST_TURN,
+                overturned=_OVERTURNED,
+            ).take(
+                numbers=(springs.bearings, count),
+                first=(self._ends[0], count),
+                second=(self._ends[1], count),
+                pulls=(springs.pulls, count),
+                travel=(springs.travel_m, count),
+                breaking=(springs.breaking_n, count),
+                built_turns=(self._built_turns, 9 * count),
+                pressed=(self._pressed_n, len(self._pressed_n)),
+                forces=(np.zeros((3, count)), 3 * count),
+                whole=(np.zeros((3, bearings)), 3 * bearings),
+                gone=(np.zeros(count, bool), count),
+            )
+        return self._pads
 
     def _turns(self, rotations: FloatArray) -> FloatArray:
         """Return how the first body of each connection is turned in the axes of the second, (3, 3, c)."""

@@ -24,7 +24,7 @@ from .cracks import Cracks
 from .equations import RigidBodies, connected_parts
 from .equilibrium import Equilibrium
 from .joint_rows import JointFrames, components_first, components_last, cross_products, turned, turned_back
-from .structure import BareBarLaw, ElasticStep, ElasticStructure, SpringLaw, StepInput
+from .structure import BareBarLaw, ElasticStep, ElasticStructure, StepInput, StoringLaw
 from .tendons import TendonForces
 
 _STEPS_S = (1.0, 0.25, 0.06)
@@ -69,7 +69,7 @@ class BuiltStructure:
     frames: JointFrames
     stiffness: FloatArray  # (6, 6, m)
     bodies: RigidBodies
-    soil: SpringLaw | None = None
+    soil: StoringLaw | None = None
     bearings: Bearings | None = None
 
 

@@ -81,7 +81,7 @@ class Cracks:
         self._normals, self._directions = np.zeros((3, 0)), np.zeros((3, 0))
         self._slips, self._flows, self._holds = np.zeros((3, 0)), np.zeros(0), np.zeros(0, bool)
         self._rests, self._grips_n = np.zeros((3, 0)), np.zeros(0)  # where sides that rub do not pull, and at most by
-        self._remembered = np.zeros((12, 0))
+        self.remembered = np.zeros((12, 0))  # what the core knows of the last sub-step
         self._core: CoreCracks | None = None
 
     def __getstate__(self) -> dict[str, object]:
@@ -133,7 +133,7 @@ class Cracks:
         self._holds = _joined(self._holds, np.ones(count, bool))
         self._rests = _joined(self._rests, np.zeros((3, count)))
         self._grips_n = _joined(self._grips_n, np.zeros(count))
-        self._remembered = _joined(self._remembered, np.full((12, count), np.nan))
+        self.remembered = _joined(self.remembered, np.full((12, count), np.nan))
         self._core = None
 
     def pressed_n_m(self, rows: IntArray) -> FloatArray:
@@ -181,12 +181,14 @@ class Cracks:
         used: FloatArray = np.fmax.reduce(shares.reshape(_COUNT, -1), axis=0)
         return used
 
-    def in_substep(self, chosen: IntArray, positions_m: FloatArray, rotations: FloatArray, substep_s: float) -> Term:
-        """Return what some cracks (c,) do in a sub-step of a length in s."""
-        term = Term.of_cracks(self.rows[chosen], self._remembered, DOWEL_SHARE, SHEARED)
+    def term(self, chosen: IntArray) -> Term:
+        """Return what some cracks (c,) do, as long as there are the same; `begin` comes before each sub-step."""
+        return Term.of_cracks(self.rows[chosen], chosen, self.remembered, DOWEL_SHARE, SHEARED)
+
+    def begin(self, term: Term, positions_m: FloatArray, rotations: FloatArray) -> None:
+        """Have a term begin a sub-step with bodies at these positions."""
         places = Places.of(positions_m, rotations)
-        call("bda_cracks_begin", self._in_core(), places, len(chosen), chosen, term)
-        return term
+        call("bda_cracks_begin", self._in_core(), places, len(term.chosen), term.chosen, term)
 
     def _in_core(self) -> CoreCracks:
         """Return what the core works on, which changes what is here."""
@@ -208,7 +210,7 @@ class Cracks:
                 "rests": (self._rests, 3 * _COUNT * count),
                 "grips": (self._grips_n, _COUNT * count),
                 "holds": (self._holds, _COUNT * count),
-                "remembered": (self._remembered, 12 * _COUNT * count),
+                "remembered": (self.remembered, 12 * _COUNT * count),
                 "yields": (self._yield_n, _COUNT * connections),
                 "shares": (self._shares, connections),
                 "openings": (self._openings_m, connections),
@@ -262,7 +264,7 @@ class Cracks:
             "_grips_n",
         ):
             setattr(self, name, getattr(self, name).compress(bars, axis=-1))
-        self._remembered = self._remembered.compress(bars, axis=-1)
+        self.remembered = self.remembered.compress(bars, axis=-1)
         self._core = None
 
 

@@ -9,16 +9,16 @@ All arrays have their components first.
 
 from __future__ import annotations
 
+import ctypes
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, fields
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray
 from ..core.calls import call
-from ..core.structs import Count, Doubles, Flags, Indices, Struct
+from ..core.structs import Count, Doubles, Flags, Indices, Struct, WrittenDoubles
 from .joint_rows import cross_products, stiffness_of_points, turned_back
 from .substep import SPRINGS, Places, Term
 
@@ -57,14 +57,8 @@ class PressedSprings:
         """Return forces (3, q) on what lies above gaps (3, q), and by how much these fall with them, (3, 3, q)."""
         count = len(self.vertical_n_m)
         forces, tangents = np.empty((3, count)), np.empty((3, 3, count))
-        call("bda_springs_resisted", self._core, self._of_all(gaps_m), forces, tangents)
+        call("bda_springs_resisted", self.core, self._of_all(gaps_m), forces, tangents)
         return forces, tangents
-
-    def stored_j(self, gaps_m: FloatArray) -> FloatArray:
-        """Return the energy (q,) that springs across gaps (3, q) would give back."""
-        stored = np.empty(len(self.vertical_n_m))
-        call("bda_springs_stored", self._core, self._of_all(gaps_m), stored)
-        return stored
 
     def _of_all(self, gaps_m: FloatArray) -> FloatArray:
         if gaps_m.shape != (3, len(self.vertical_n_m)):
@@ -72,7 +66,8 @@ class PressedSprings:
         return np.ascontiguousarray(gaps_m)
 
     @cached_property
-    def _core(self) -> _Law:
+    def core(self) -> _Law:
+        """The law, as the core takes it."""
         count = len(self.vertical_n_m)
         law = _Law(count=count)
         for name, array in (
@@ -134,11 +129,12 @@ class SpringPositions:
     def gaps(self, positions_m: FloatArray, rotations: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return gaps (3, p) below the bodies above, and arms (3, p) of the force there, from both bodies' centres."""
         gaps, arms, arms_below = (np.empty((3, len(self.of))) for _ in range(3))
-        call("bda_spring_gaps", self._core, Places.of(positions_m, rotations), gaps, arms, arms_below)
+        call("bda_spring_gaps", self.core, Places.of(positions_m, rotations), gaps, arms, arms_below)
         return gaps, arms, arms_below
 
     @cached_property
-    def _core(self) -> _Places:
+    def core(self) -> _Places:
+        """The positions, as the core takes them."""
         count = len(self.of)
         places = _Places(count=count)
         places.point("above", np.ascontiguousarray(self.above), count)
@@ -175,41 +171,91 @@ class SpringPositions:
         )
 
 
-def spring_term(
-    rows: IntArray,
-    positions: SpringPositions,
-    which: IntArray,
-    gaps: tuple[FloatArray, FloatArray, FloatArray],
-    law: PressedSprings,
-    remembered: FloatArray,
-    solved: Callable[[FloatArray], None] | None = None,
-) -> Term:
-    """Return what c connections, `rows` (c,), do in a sub-step by q springs, which are `which` (q,) of all.
+class Springs(Struct):
+    """Springs with what has become of them by now: `bda_springs`."""
 
-    `gaps` are from where springs resist nothing, (3, q), with their arms on the bodies above and below. `solved` gets
-    the upward forces (q,).
-    """
-    widths, arms, arms_below = gaps
-    return Term.of(
-        SPRINGS,
-        rows,
-        positions.of,
-        which,
-        remembered,
-        (positions.below, positions.above),
-        (arms_below, arms),
-        widths,
-        {
-            "vertical": law.vertical_n_m,
-            "sideways": law.sideways_n_m,
-            "capacity": law.capacity_n,
-            "friction": law.friction,
-            "pressed_by": law.pressed_n,
-            "pulls": law.pulls,
-            "above_first": positions.above_first,
-        },
-        solved,
+    _fields_ = (
+        ("at", ctypes.c_void_p),
+        ("law", ctypes.c_void_p),
+        ("connections", Count),
+        ("of", Indices),
+        *((name, WrittenDoubles) for name in ("free", "holding", "touching")),
     )
+
+
+class SpringsOfConnections:
+    """Springs (p,) in place of connections `rows` (c,), from one sub-step to the next.
+
+    Attributes
+    ----------
+    touching : (c,) float
+        Part of the stiffness of each connection that acts, from 0 to 1, as it settled last.
+    remembered : (12, p) float
+        What the core knows of the last sub-step.
+    """
+
+    def __init__(self, rows: IntArray, positions: SpringPositions, law: PressedSprings):
+        self.rows, self._positions, self._law = rows, positions, law
+        count = len(positions.of)
+        self._free = np.zeros((3, count))  # gaps at which springs resist nothing
+        self.touching, self.remembered = np.ones(len(rows)), np.full((12, count), np.nan)
+        self._springs_in_core: Springs | None = None
+
+    def __getstate__(self) -> dict[str, object]:
+        """Return what a copy has: where its arrays are in memory is its own."""
+        return self.__dict__ | {"_springs_in_core": None}
+
+    def term(self, chosen: IntArray) -> Term:
+        """Return what some connections (k,) do, as long as these are the same; `begin` comes before each sub-step."""
+        positions, which = self._positions.only(chosen)
+        law, count = self._law.only(which), len(which)
+        return Term.of(
+            SPRINGS,
+            self.rows[chosen],
+            chosen,
+            positions.of,
+            which,
+            self.remembered,
+            (positions.below, positions.above),
+            (np.zeros((3, count)), np.zeros((3, count))),
+            np.zeros((3, count)),
+            {
+                "vertical": law.vertical_n_m,
+                "sideways": law.sideways_n_m,
+                "capacity": law.capacity_n,
+                "friction": law.friction,
+                "pressed_by": np.zeros(count),
+                "pulls": law.pulls,
+                "above_first": positions.above_first,
+            },
+            partial(self._solved, which),
+        )
+
+    def begin(self, term: Term, positions_m: FloatArray, rotations: FloatArray) -> None:
+        """Have a term begin a sub-step with bodies at these positions."""
+        call("bda_springs_begin", self._in_core(), Places.of(positions_m, rotations), term)
+
+    def stored_j(self, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
+        """Return the energy (c,) that the springs would give back."""
+        stored = np.empty(len(self.rows))
+        call("bda_springs_energy", self._in_core(), Places.of(positions_m, rotations), stored)
+        return stored
+
+    def _solved(self, which: IntArray, forces_n: FloatArray) -> None:
+        """Take over the upward forces (q,) of some springs (q,) in a sub-step."""
+
+    def _in_core(self) -> Springs:
+        if self._springs_in_core is None:
+            at, law, count = self._positions.core, self._law.core, len(self._positions.of)
+            self._springs_in_core = Springs(
+                at=ctypes.addressof(at), law=ctypes.addressof(law), connections=len(self.rows)
+            ).take(
+                of=(self._positions.of, count),
+                free=(self._free, 3 * count),
+                holding=(self._law.pressed_n, count),
+                touching=(self.touching, len(self.rows)),
+            )
+        return self._springs_in_core
 
 
 def stiffness_of_springs(

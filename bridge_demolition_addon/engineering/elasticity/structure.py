@@ -67,11 +67,22 @@ class SpringLaw(Protocol):
     def update_plastic_state(self, positions_m: FloatArray, rotations: FloatArray) -> None:
         """Update before a sub-step what has yielded for good, at positions (3, n) and rotations (3, 3, n)."""
 
-    def in_substep(self, chosen: IntArray, positions_m: FloatArray, rotations: FloatArray, substep_s: float) -> Term:
-        """Return what some of them (c,) do in a sub-step of a length in s."""
+    @property
+    def remembered(self) -> FloatArray:
+        """What the core knows of the last sub-step (12, p); another array where there are others."""
+
+    def term(self, chosen: IntArray) -> Term:
+        """Return what some of them (c,) do, as long as there are the same; `begin` comes before each sub-step."""
+
+    def begin(self, term: Term, positions_m: FloatArray, rotations: FloatArray) -> None:
+        """Have a term begin a sub-step with bodies at these positions."""
+
+
+class StoringLaw(SpringLaw, Protocol):
+    """Springs whose energy is counted."""
 
     def stored_j(self, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
-        """Return the energy (f,) that they would give back."""
+        """Return the energy (c,) that they would give back."""
 
 
 class BareBarLaw(SpringLaw, Protocol):
@@ -129,7 +140,7 @@ class ElasticStructure:
         bodies: RigidBodies,
         damping_s: FloatArray | float,
         cracks: Cracks | None = None,
-        soil: SpringLaw | None = None,
+        soil: StoringLaw | None = None,
         bearings: Bearings | None = None,
         *,
         from_rest: bool = False,
@@ -158,6 +169,7 @@ class ElasticStructure:
         self._intact = np.ones(len(frames), bool)
         self._substep_s = 0.0
         self._cracks, self._has_broken = cracks, False
+        self._terms: dict[int, Term] = {}  # of laws, as they were last
         self._parts: list[_ConnectedComponent] = []
         self._part_of_body = np.full(self._count, -1)
         self._partition()
@@ -370,10 +382,16 @@ class ElasticStructure:
 
     def _acting_terms(self, law: Cracks | SpringLaw | None, acts: BoolArray, start: StepInput) -> Term | None:
         """Cracks that reinforcement holds, or springs, of connections that act (m,); None where there is none."""
-        if law is None or not acts[law.rows].any():
+        if law is None:
             return None
         chosen = np.flatnonzero(acts[law.rows])
-        return law.in_substep(chosen, start.positions_m, start.rotations, self._substep_s)
+        if not len(chosen):
+            return None
+        term = self._terms.get(id(law))
+        if term is None or not term.is_of(chosen, law.remembered):
+            self._terms[id(law)] = term = law.term(chosen)
+        law.begin(term, start.positions_m, start.rotations)
+        return term
 
 
 def _grouped(labels: IntArray, numbers: IntArray) -> list[IntArray]:

@@ -7,10 +7,11 @@ from __future__ import annotations
 
 import ctypes
 from collections.abc import Callable, Sequence
+from typing import ClassVar
 
 import numpy as np
 
-from ..arrays import BoolArray, FloatArray, IntArray
+from ..arrays import BoolArray, FloatArray, IntArray, same
 from ..core.calls import call
 from ..core.structs import Count, Doubles, Flags, Indices, NotFinite, Struct, WrittenDoubles, WrittenFlags
 from .joint_rows import JointFrames
@@ -63,14 +64,28 @@ class Places(Struct):
 
     _fields_ = (("count", Count), ("positions", Doubles), ("rotations", Doubles))
 
+    _last: ClassVar[Places]
+
     @classmethod
     def of(cls, positions_m: FloatArray, rotations: FloatArray) -> Places:
-        """Return positions (3, n) and rotations (3, 3, n)."""
+        """Return positions (3, n) and rotations (3, 3, n): those of last time, if these are the same arrays."""
+        last = cls._last
+        if last.given is not None and last.given[0] is positions_m and last.given[1] is rotations:
+            return last
         count = positions_m.shape[1]
         made = cls(count=count)
         made.point("positions", np.ascontiguousarray(positions_m), 3 * count)
         made.point("rotations", np.ascontiguousarray(rotations), 9 * count)
+        if positions_m.flags.c_contiguous and rotations.flags.c_contiguous:
+            made.given, cls._last = (positions_m, rotations), made
         return made
+
+    def __init__(self, **values: int) -> None:
+        super().__init__(**values)
+        self.given: tuple[FloatArray, FloatArray] | None = None
+
+
+Places._last = Places()
 
 
 class Term(Struct):
@@ -80,6 +95,8 @@ class Term(Struct):
     ----------
     rows : (c,) int
         Their numbers among all that connects bodies.
+    chosen : (c,) int
+        Their numbers among those of their law.
     arrays : dict
         The arrays, by the names of their fields.
     """
@@ -138,6 +155,7 @@ class Term(Struct):
         cls,
         kind: int,
         rows: IntArray,
+        chosen: IntArray,
         of_gap: IntArray,
         which: IntArray,
         remembered: FloatArray,
@@ -155,7 +173,7 @@ class Term(Struct):
         """
         connections, gaps = len(rows), len(of_gap)
         made = cls(kind=kind, connections=connections, gaps=gaps, all_gaps=remembered.shape[-1], **settings)
-        made.rows, made.solved = rows, solved
+        made.rows, made.chosen, made.solved = rows, chosen, solved
         made.arrays = {
             "numbers": rows,
             "of_gap": of_gap,
@@ -174,13 +192,14 @@ class Term(Struct):
             size = connections if name in cls._OF_CONNECTIONS else gaps * (array.size // max(array.shape[-1], 1))
             made.point(name, np.ascontiguousarray(array), size)
         made.point("remembered", remembered, remembered.size)
+        made.remembered_in = remembered
         made.impulses = np.zeros((6, connections)), np.zeros((6, connections))
         for name, array in zip(("of_first", "of_second"), made.impulses, strict=True):
             made.point(name, array, 6 * connections)
         return made
 
     @classmethod
-    def of_cracks(cls, rows: IntArray, remembered: FloatArray, dowel: float, sheared: float) -> Term:
+    def of_cracks(cls, rows: IntArray, chosen: IntArray, remembered: FloatArray, dowel: float, sheared: float) -> Term:
         """Return a term of cracks (c,) whose arrays are not filled yet."""
         gaps = 4 * len(rows)
         whole = {name: np.empty(gaps, int) for name in ("which", "first", "second")}
@@ -192,6 +211,7 @@ class Term(Struct):
         return cls.of(
             CRACKS,
             rows,
+            chosen,
             np.empty(gaps, int),
             whole["which"],
             remembered,
@@ -205,10 +225,15 @@ class Term(Struct):
 
     def __init__(self, **values: float):
         super().__init__(**values)
-        self.rows: IntArray = np.zeros(0, int)
+        self.rows = self.chosen = np.zeros(0, int)
+        self.remembered_in = np.zeros((12, 0))
         self.arrays: dict[str, np.ndarray] = {}
         self.impulses = np.zeros((6, 0)), np.zeros((6, 0))  # (6, c), on first and on second bodies
         self.solved: Callable[[FloatArray], None] | None = None
+
+    def is_of(self, chosen: IntArray, remembered: FloatArray) -> bool:
+        """Whether these are its connections, and where their law remembers the last sub-step: of the same as before."""
+        return self.remembered_in is remembered and same(self.chosen, chosen)
 
     def tell(self) -> None:
         """Hand over the forces that are solved."""

@@ -21,7 +21,7 @@ import numpy as np
 from ..arrays import BoolArray, FloatArray, IntArray
 from ..core.calls import call
 from ..core.structs import Count, Doubles, Pointer, Struct
-from ..geometry.vectors import carried_axes, dot, length
+from ..geometry.vectors import dot, length
 from .section_cuts import ConnectedFaces, ConnectionLoads
 
 _CACHE_LINE = 64
@@ -148,10 +148,6 @@ class CarriedSections:
         found = self.loads(loads[:, None], positions_m, rotations)
         return ConnectionLoads(found.forces_n[0], found.moments_nm[0], found.points_m[0])
 
-    def carried_axes(self, rows: IntArray, rotations: FloatArray) -> FloatArray:
-        """Return the axes (r, 3, 3) of connections (r,), as columns, under rotations (3, 3, n) of the bodies."""
-        return carried_axes(self.axes[rows], self.bodies[rows], rotations.transpose(2, 0, 1))
-
 
 SPREAD = 7.0
 """Extent of a section from its middle, by the thickness of the member.
@@ -187,24 +183,32 @@ class MemberSections:
         first, second = faces.pairs.T
         self._before = np.where(moves[first, None], centres_m[first], faces.points_m - beyond)
         self._behind = np.where(moves[second, None], centres_m[second], faces.points_m + beyond)
-        self._known: dict[int, np.ndarray] = {}
-        self._is_known, self._are_whole = np.zeros((2, len(first)), bool)
+        count = len(first)
+        count = len(first)
+        self._through, self._end = np.zeros(0, CUT_THROUGH), 0  # faces of the sections that were asked for, one by one
+        self._firsts, self._sizes = np.full(count, -1), np.zeros(count, int)
+        self._are_whole = np.zeros(count, bool)
 
     def are_whole(self, rows: IntArray) -> BoolArray:
         """Whether the sections of some connections (k,) are those of their members, as they were built: (k,) bool."""
-        for row in rows[~self._is_known[rows]].tolist():
+        for row in rows[self._firsts[rows] < 0].tolist():
             self._find(row)
         return self._are_whole[rows]
 
-    def through(self, rows: IntArray) -> tuple[IntArray, np.ndarray]:
-        """Return the first face (k + 1,) of the section of each connection (k,), and all their faces (e,) packed.
+    def hand_over(self, rows: IntArray, judging: Struct) -> None:
+        """Let the core find the sections of some connections (k,)."""
+        self.are_whole(rows)
+        judging.point("sections", self._through, len(self._through))
+        for name, of_all in (("firsts", self._firsts), ("sizes", self._sizes), ("whole", self._are_whole)):
+            judging.point(name, of_all, len(of_all))
+
+    def through(self, row: int) -> np.ndarray:
+        """Return the faces (e,) of the section of a connection.
 
         Where the section doubles back, a face carries a load, and has no area.
         """
-        self.are_whole(rows)
-        in_sections = [self._known[row] for row in rows.tolist()]
-        starts = np.cumsum([0, *map(len, in_sections)]) // CUT_THROUGH.itemsize
-        return starts, np.concatenate(in_sections).view(CUT_THROUGH)
+        self.are_whole(np.array([row]))
+        return self._through[self._firsts[row] :][: self._sizes[row]]
 
     def _find(self, row: int) -> None:
         """Find the connections in the section of one, on which side of it their first bodies are, and their cosines."""
@@ -218,10 +222,14 @@ class MemberSections:
         signs = np.where((before < behind) | (near == row), 1.0, -1.0)
         cosines = np.maximum(signs * dot(self._connected.normals[near], normal), 0.0)
         area_m2 = (self._connected.areas_m2[near] * cosines).sum()
-        # As bytes: numpy takes long to find what records have in common.
-        self._known[row] = pack(CUT_THROUGH, face=near, sign=signs, cosine=cosines).view(np.uint8)
+        start, self._end = self._end, self._end + len(near)
+        if self._end > len(self._through):
+            self._through = np.concatenate((self._through, np.zeros(self._end, CUT_THROUGH)))
+        for name, values in (("face", near), ("sign", signs), ("cosine", cosines)):
+            self._through[name][start : self._end] = values
+        self._firsts[row], self._sizes[row] = start, len(near)
         thickness_m = self._thicknesses[row]
-        self._is_known[row], self._are_whole[row] = True, area_m2 >= WHOLE * thickness_m * thickness_m
+        self._are_whole[row] = area_m2 >= WHOLE * thickness_m * thickness_m
 
 
 def kinds_of(members: IntArray) -> IntArray:

@@ -9,7 +9,15 @@ import numpy as np
 from ..arrays import BoolArray, FloatArray, IntArray
 from ..core.calls import call
 from ..core.structs import Count, Doubles, Flags, Indices, Struct, WrittenDoubles, WrittenIndices
-from .carried_sections import CUT_THROUGH, CarriedSections, CutsThrough, MemberSections, Resisting, pack
+from .carried_sections import (
+    CUT_THROUGH,
+    CarriedLoads,
+    CarriedSections,
+    CutsThrough,
+    MemberSections,
+    Resisting,
+    pack,
+)
 from .section_cuts import ConnectedFaces, ConnectionLoads, SectionCuts, SectionForces, worst_around
 from .strength import (
     Strength,
@@ -41,6 +49,10 @@ class Judging(Struct):
         ("friction", Doubles),
         ("starts", Indices),
         ("through", CutsThrough),
+        ("sections", CutsThrough),
+        *((name, Indices) for name in ("firsts", "sizes")),
+        ("whole", Flags),
+        ("parts", Indices),
         ("found", WrittenIndices),
         ("noted", WrittenDoubles),
         ("lines", WrittenDoubles),
@@ -57,9 +69,6 @@ class LoadsInCuts(Struct):
         ("count", Count),
         ("rows", Indices),
         *((name, Doubles) for name in ("axes", "forces", "moments", "points")),
-        ("starts", Indices),
-        ("through", CutsThrough),
-        ("parts", Indices),
         ("used", WrittenDoubles),
     )
 
@@ -109,14 +118,12 @@ class Overloads:
         Loads and places are as `over_alone` takes them. When one breaks, its neighbours take over its load: they are
         judged again after the next sub-step.
         """
-        if self._member_sections is None or parts is None:
-            rows, used = self._judged("bda_over_in_cuts", intact, sections, loads, positions_m, rotations, left)
-        else:
-            places = loads, positions_m, rotations
-            rows, used = self.over_alone(intact, sections, *places, left)
-            if len(rows):  # mostly nothing is overloaded: then what the others carry is not worked out
-                of_all, axes = sections.loads_at_once(*places), sections.carried_axes(rows, rotations)
-                rows, used = _overloaded(rows, self.together(rows, used, of_all, axes, intact, left, parts))
+        carrying = self._over_alone(intact, sections, loads, positions_m, rotations, left)
+        if not self._judging.count:  # mostly: then what the others carry is not worked out
+            return self._rows[:0]
+        in_members = self._hand_over(self._rows[: self._judging.count], parts)
+        call("bda_over_together", self._judging, carrying, in_members, _MOST_REDISTRIBUTED)
+        rows, used = self._found()
         return rows[worst_around(self._pairs[rows], used, self._moves)] if len(rows) else rows
 
     def overloaded(
@@ -149,24 +156,37 @@ class Overloads:
 
         Loads are about the centres of bodies, which are at positions (3, n) in rotations (3, 3, n).
         """
-        return self._judged("bda_over_alone", intact, sections, loads, positions_m, rotations, left)
+        self._over_alone(intact, sections, loads, positions_m, rotations, left)
+        return self._found()
 
-    def _judged(
+    def _over_alone(
         self,
-        name: str,
         intact: BoolArray,
         sections: CarriedSections,
         loads: FloatArray,
         positions_m: FloatArray,
         rotations: FloatArray,
         left: FloatArray,
-    ) -> tuple[IntArray, FloatArray]:
-        """Return what a function of the core finds overloaded, as `over_alone` does."""
+    ) -> CarriedLoads:
+        """Let the core find what is overloaded alone; return the loads as it takes them."""
         judging, count = self._judging, len(self._pairs)
         judging.take(intact=(intact, count), left=(left, count), levers=(sections.lever_arms_m, count))
-        call(name, judging, sections.carrying(loads, positions_m, rotations))
-        found = slice(judging.count)
+        carrying = sections.carrying(loads, positions_m, rotations)
+        call("bda_over_alone", judging, carrying)
+        return carrying
+
+    def _found(self) -> tuple[IntArray, FloatArray]:
+        """Return which connections (k,) the core has found, and their utilisations (k,)."""
+        found = slice(self._judging.count)
         return self._rows[found].copy(), self._used[found].copy()
+
+    def _hand_over(self, rows: IntArray, parts: IntArray | None) -> int:
+        """Return whether connections (r,) are judged in sections of members, which are found then."""
+        if self._member_sections is None or parts is None:
+            return False
+        self._member_sections.hand_over(rows, self._judging)
+        self._judging.point("parts", parts, len(self._pairs))
+        return True
 
     def _core_judging(self, faces: ConnectedFaces, cuts: SectionCuts) -> Judging:
         """Return what the core knows of all connections; arrays that the caller keeps up to date are his own."""
@@ -212,9 +232,9 @@ class Overloads:
         parts: IntArray | None,
     ) -> FloatArray:
         """Utilisations (r,) of the sections of some connections, whose own (r,) are known."""
+        used = self._used_together(rows, loads, axes, intact, parts) / left[rows]
         if self._member_sections is None or parts is None:
-            return self.in_cuts(rows, loads, axes, intact) / left[rows]
-        used = self._in_members(self._member_sections, rows, loads, axes, intact, parts) / left[rows]
+            return used
         return np.maximum(used, alone / _MOST_REDISTRIBUTED)
 
     def _strength_at(self, rows: IntArray) -> Strength:
@@ -229,13 +249,12 @@ class Overloads:
 
     def in_cuts(self, rows: IntArray, loads: ConnectionLoads, axes: FloatArray, intact: BoolArray) -> FloatArray:
         """Mean utilisations (r,), of whole strengths, of the cuts through the two shards of some connections."""
-        in_cuts, used = self._given(rows, loads, axes)
-        self._judging.take(intact=(intact, len(self._pairs)))
-        call("bda_used_in_cuts", self._judging, in_cuts)
-        return used
+        return self._used_together(rows, loads, axes, intact, None)
 
-    def _given(self, rows: IntArray, loads: ConnectionLoads, axes: FloatArray) -> tuple[LoadsInCuts, FloatArray]:
-        """Loads of all connections with the axes of some as the core takes them, and where it writes utilisations."""
+    def _used_together(
+        self, rows: IntArray, loads: ConnectionLoads, axes: FloatArray, intact: BoolArray, parts: IntArray | None
+    ) -> FloatArray:
+        """Utilisations (r,), of whole strengths, of some connections in their sections, or in their cuts."""
         count, used = len(rows), np.empty(len(rows))
         if count and not 0 <= rows.min() <= rows.max() < len(self._pairs):
             raise ValueError(f"rows are {rows.min()} to {rows.max()} of {len(self._pairs)} connections")
@@ -247,31 +266,8 @@ class Overloads:
             points=(loads.points_m, 3 * len(self._pairs)),
             used=(used, count),
         )
-        return given, used
-
-    def _in_members(
-        self,
-        members: MemberSections,
-        rows: IntArray,
-        loads: ConnectionLoads,
-        axes: FloatArray,
-        intact: BoolArray,
-        parts: IntArray,
-    ) -> FloatArray:
-        """Utilisations (r,), of whole strengths, of the sections of some connections."""
-        whole = members.are_whole(rows)
-        used = np.empty(len(rows))
-        if whole.any():
-            in_sections, found = self._given(rows[whole], loads, axes[whole])
-            starts, through = members.through(rows[whole])
-            in_sections.take(
-                starts=(starts, len(starts)), through=(through, len(through)), parts=(parts, len(self._pairs))
-            )
-            self._judging.take(intact=(intact, len(self._pairs)))
-            call("bda_used_in_sections", self._judging, in_sections)
-            used[whole] = found
-        if not whole.all():
-            used[~whole] = self.in_cuts(rows[~whole], loads, axes[~whole], intact)
+        self._judging.take(intact=(intact, len(self._pairs)))
+        call("bda_used_together", self._judging, given, self._hand_over(rows, parts))
         return used
 
 

@@ -3,14 +3,13 @@
 
 import numpy as np
 import pytest
+from reference.bare_bars import bow_m, folding_force_n
 from scipy import integrate
-from support.core_terms import forces_and_tangents
+from support.core_terms import forces_and_tangents, term_in_substep
 
 from bridge_demolition_addon.engineering.drilled_charges.bare_bars import (
-    bow_m,
     buckling_force_n,
     compression_n,
-    folding_force_n,
     yield_force_n,
 )
 from bridge_demolition_addon.engineering.drilled_charges.cages import BareBars, Cages
@@ -35,10 +34,10 @@ def cage(bared_m, count=8.0, from_row=10, **law):
     return cages, positions
 
 
-def force_n(cages, positions, moved_m, substep_s=1e-3):
+def force_n(cages, positions, moved_m):
     """Upward force on the upper body where it is so much higher than it was; then the bars have settled there."""
     moved = positions + np.array([[0.0, 0.0], [0.0, 0.0], [0.0, moved_m]])
-    step = cages.in_substep(np.array([0]), moved, LEVEL, substep_s)
+    step = term_in_substep(cages, np.array([0]), moved, LEVEL)
     forces, _ = forces_and_tangents(step, np.zeros((1, 1)))
     cages.update_plastic_state(moved, LEVEL)
     return -forces[0, 0] * step.arrays["directions"][2, 0]

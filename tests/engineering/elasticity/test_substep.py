@@ -9,7 +9,7 @@ from reference.crack_law import CrackLaw
 from reference.spring_law import ReferenceSprings
 from reference.substep import velocities_after
 from reference.terms import ReferenceTerm
-from support.core_terms import forces_and_tangents, term_of_law
+from support.core_terms import forces_and_tangents, term_in_substep, term_of_law
 
 from bridge_demolition_addon.engineering.drilled_charges.cages import BareBars, Cages
 from bridge_demolition_addon.engineering.elasticity.bearings import Bearings, PadSprings
@@ -22,7 +22,11 @@ from bridge_demolition_addon.engineering.elasticity.joint_rows import (
     effective_inverse_masses,
     joint_positions,
 )
-from bridge_demolition_addon.engineering.elasticity.springs import PressedSprings, SpringPositions
+from bridge_demolition_addon.engineering.elasticity.springs import (
+    PressedSprings,
+    SpringPositions,
+    SpringsOfConnections,
+)
 from bridge_demolition_addon.engineering.elasticity.steel_bars import Bars, Steel
 from bridge_demolition_addon.engineering.elasticity.structure import ElasticStructure, StepInput
 from bridge_demolition_addon.engineering.elasticity.substep import CRACKS, SPRINGS, Frames, Places
@@ -114,9 +118,9 @@ class Structure:
 
     def terms(self):
         """Everything that is not proportional to motion, as it is before the sub-step."""
-        given = self.positions, self.rotations, SUBSTEP_S
+        places = self.positions, self.rotations
         laws = [law for law in (self.cracks, self.bearings, self.cages) if law is not None and len(law.rows)]
-        return [ReferenceTerm(law.in_substep(np.arange(len(law.rows)), *given), SUBSTEP_S) for law in laws]
+        return [ReferenceTerm(term_in_substep(law, np.arange(len(law.rows)), *places), SUBSTEP_S) for law in laws]
 
     def step(self):
         self.structure.update_plastic_state(self.positions, self.rotations)
@@ -289,7 +293,12 @@ def test_springs_resist_as_by_numpy(seed):
     alone = PressedSprings(*(getattr(law, item.name) for item in fields(law)))
     for own, expected in zip(alone.resisted(gaps), (upwards, tangents), strict=True):
         np.testing.assert_array_equal(own, expected)
-    np.testing.assert_array_equal(alone.stored_j(gaps), law.stored_j(gaps))
+    # On bodies that have moved by the gaps alone.
+    ends, none = (np.arange(GAPS), np.full(GAPS, GAPS)), np.zeros((3, GAPS))
+    of = np.arange(GAPS) // 3
+    springs = SpringsOfConnections(np.unique(of), SpringPositions(of, *ends, none, none, np.ones(20, bool)), alone)
+    places = np.append(gaps, np.zeros((3, 1)), axis=1), np.repeat(np.eye(3)[:, :, None], GAPS + 1, axis=2)
+    np.testing.assert_array_equal(springs.stored_j(*places), np.bincount(of, law.stored_j(gaps)))
 
 
 def test_gaps_of_springs_are_between_points_of_both_bodies():
@@ -312,14 +321,13 @@ def test_numbers_out_of_range_are_refused(monkeypatch):
     """A body that there is not would be read past the end of arrays."""
     structure = Structure(1, bared=False)
     start = StepInput(structure.positions, structure.rotations, structure.velocities, np.zeros(BODIES, bool))
-    in_substep = structure.cracks.in_substep
+    begin = structure.cracks.begin
 
-    def beyond(*given):
-        term = in_substep(*given)
+    def beyond(term, *places):
+        begin(term, *places)
         term.arrays["second"][2] = BODIES
-        return term
 
-    monkeypatch.setattr(structure.cracks, "in_substep", beyond)
+    monkeypatch.setattr(structure.cracks, "begin", beyond)
     with pytest.raises(ValueError, match="that there are not"):
         structure.structure.step(start, structure.intact, SUBSTEP_S)
     frames = replace(structure.frames, first=structure.frames.first + BODIES)

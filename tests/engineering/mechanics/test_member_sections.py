@@ -11,7 +11,13 @@ from support.long_cases import long_but
 from bridge_demolition_addon.engineering.elasticity.section_stiffness import ElasticModuli
 from bridge_demolition_addon.engineering.fracture.shards import fracture
 from bridge_demolition_addon.engineering.geometry.solids import box
-from bridge_demolition_addon.engineering.mechanics.carried_sections import SPREAD, MemberSections, kinds_of
+from bridge_demolition_addon.engineering.geometry.vectors import rotated
+from bridge_demolition_addon.engineering.mechanics.carried_sections import (
+    SPREAD,
+    CarriedSections,
+    MemberSections,
+    kinds_of,
+)
 from bridge_demolition_addon.engineering.mechanics.joint import Joint
 from bridge_demolition_addon.engineering.mechanics.overloads import Overloads
 from bridge_demolition_addon.engineering.mechanics.section_cuts import (
@@ -19,6 +25,7 @@ from bridge_demolition_addon.engineering.mechanics.section_cuts import (
     ConnectionLoads,
     SectionForces,
     section_axes,
+    worst_around,
 )
 from bridge_demolition_addon.engineering.mechanics.strength import Strength
 from bridge_demolition_addon.engineering.structure.connections import (
@@ -110,8 +117,9 @@ class PulledSlab:
 
     def sections_of_parts(self, rows: np.ndarray, parts: np.ndarray) -> tuple[SectionForces, np.ndarray, np.ndarray]:
         """The same, by the parts that connections hold together."""
-        starts, through = self.member_sections().through(rows)
-        owners = np.repeat(np.arange(len(rows)), np.diff(starts))
+        members = self.member_sections()
+        of_rows = [members.through(row) for row in rows.tolist()]
+        owners, through = np.repeat(np.arange(len(rows)), [*map(len, of_rows)]), np.concatenate(of_rows)
         holds = parts[through["face"]] == parts[rows][owners]
         owners, through = owners[holds], through[holds]
         faces, signs, cosines = (through[name] for name in ("face", "sign", "cosine"))
@@ -175,6 +183,23 @@ def test_the_core_judges_whole_sections_as_numpy_does():
     strength = Strength(1e12, 2e6, 2e6, 2e6, 2e6)
     expected = utilisation(loads, rectangular_sections(areas, second_moments), strength)
     np.testing.assert_allclose(used, expected, rtol=1e-12)
+
+
+def test_loads_that_bodies_carry_break_what_the_same_loads_break_as_they_are_given():
+    slab = PulledSlab.cut(200, 1)
+    count, turn = len(slab.connections), rotated(np.eye(3), np.array([0.3, -0.2, 0.5]))
+    bodies, places = slab.pairs[:, 0], slab.centres_m
+    levers = slab.connections.points - places[bodies]
+    sections = CarriedSections(bodies, np.ones(count), levers, slab.axes)
+    moments_nm = slab.loads.moments_nm + np.cross(levers, slab.loads.forces_n)
+    loads = np.concatenate([vectors @ turn.T for vectors in (slab.loads.forces_n, moments_nm)], axis=1).T.copy()
+    placed = (places @ turn.T).T.copy(), np.tile(turn[:, :, None], len(places))
+    holds, left = np.arange(count) % 7 > 0, np.linspace(0.8, 1.2, count)
+    parts = (slab.connections.points[:, 1] > 0.0).astype(int)
+    judging = slab.overloads(0.5 * ROOT_STRESS_PA, slab.member_sections())
+    rows, used = judging.overloaded(np.flatnonzero(holds), slab.loads, slab.axes[holds], holds, left, parts)
+    worst = rows[worst_around(slab.pairs[rows], used, slab.moves)]
+    assert judging.breaking(holds, sections, loads, *placed, left, parts).tolist() == worst.tolist() != []
 
 
 def test_what_clips_an_edge_is_no_section_of_the_member():

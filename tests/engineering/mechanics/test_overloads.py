@@ -100,7 +100,7 @@ def test_the_same_connections_break(rng, further, bodies):
     case = Case(rng, further, bodies)
     rows, left = np.flatnonzero(case.intact), np.ones(CONNECTIONS)
     of_all = reference.loads_at_once(case.sections, case.loads, *case.places)
-    axes = case.sections.carried_axes(rows, case.places[1])
+    axes = reference.section_axes_of(case.sections, rows, case.places[1])
     used = case.expected.in_cuts(rows, of_all, axes, case.intact)
     left[rows] = np.where(rows % 2, used, np.nextafter(used, 0.0))
     given = case.intact, case.sections, case.loads, *case.places, left
