@@ -7,13 +7,15 @@ solver, its rows do nothing; they only resist changes by contacts, with the soft
 
 from __future__ import annotations
 
+import ctypes
 from collections.abc import Sequence
 
 import bpy
 import numpy as np
 
 from ..engineering.core.calls import call
-from ..engineering.core.structs import Addresses, Count, Doubles, Flags, Indices, Struct
+from ..engineering.core.structs import Addresses, Count, Doubles, Flags, Indices, Struct, WrittenFlags
+from ..engineering.elasticity.cracks import ExpectedCracks
 from ..errors import LayoutError
 from .layout import ALL_ROWS_SET, SPRING_CORRECTION, SPRING_TYPE, Layout, SpringLayout
 from .memory import gather_doubles, read, read_value
@@ -48,7 +50,7 @@ class BulletRows(Struct):
         *((name, Indices) for name in _OFFSETS),
         ("flags", Count),
         ("held", Flags),
-        ("resists", Flags),
+        ("resists", WrittenFlags),
     )
 
     @classmethod
@@ -61,6 +63,15 @@ class BulletRows(Struct):
         made.point("held", held, held.size)
         made.point("resists", resists, resists.size)
         return made
+
+
+class Softness(Struct):
+    """How soft rows may be, and where frames are: `bda_softness`."""
+
+    _fields_ = (
+        *((name, ctypes.c_double) for name in ("softest", "free_from")),
+        *((name, Count) for name in ("flags", "frame_a", "frame_b")),
+    )
 
 
 class ConstraintRows:
@@ -79,6 +90,9 @@ class ConstraintRows:
         self._starts = layout.spring.frame_a, layout.spring.frame_b
         self._built = self.frame_components()  # by Blender
         self._moved = np.zeros(len(addresses), bool)
+        self._softness = Softness(
+            softest=_SOFTEST, free_from=_FREE_FROM, flags=ALL_ROWS_SET, frame_a=self._starts[0], frame_b=self._starts[1]
+        )
         self._core = BulletRows.of(layout.spring, addresses, self.held, self._resists)
 
     def frame_components(self) -> tuple[tuple[np.ndarray, np.ndarray], ...]:
@@ -95,6 +109,12 @@ class ConstraintRows:
         for start, of_body, points in zip(self._starts, axes, points_m, strict=True):
             frames = _doubles("axes", of_body, 9 * len(rows)), _doubles("points", points, 3 * len(rows))
             call("bda_put_frames", self._core, start, len(rows), _numbers(rows), *frames)
+
+    def resist_as(self, cracks: ExpectedCracks, rows: np.ndarray, exists: np.ndarray) -> None:
+        """Have constraints (r,), of those that exist (k,), resist as cracks do; `restore` undoes it."""
+        self._moved[rows] = True
+        exists = Flags.checked("exists", exists, len(self._addresses))
+        call("bda_put_cracks", self._core, cracks, self._softness, len(rows), _numbers(rows), exists)
 
     def soften(self, rows: np.ndarray, softness: np.ndarray) -> None:
         """Have all of an error of existing constraints (r,) corrected in a sub-step, with a softness (6, r).

@@ -281,22 +281,48 @@ static int are_rows(const bda_bullet_rows *rows, int64_t count, const int64_t *c
     return 1;
 }
 
-/* Write limits (6, r) times signs (6,) to the held rows of springs (r,), both alike: crossed limits leave a row free. */
+/* Write limits, one of r (6, r), times signs (6,) to the held rows of a spring, both alike: crossed limits leave a row free. */
+static void put_limits(const bda_bullet_rows *rows, int64_t spring, const double *limits, int64_t r, const double *signs)
+{
+    for (int row = 0; row < 6; row++) {
+        int64_t place = row * rows->count + spring;
+        uint64_t address = rows->addresses[spring];
+        double limit = limits[row * r] * signs[row];
+        if (!rows->held[place])
+            continue;
+        put_double(address + (uint64_t)rows->lower[row], rows->resists[place] ? limit : 1.0);
+        put_double(address + (uint64_t)rows->upper[row], rows->resists[place] ? limit : -1.0);
+    }
+}
+
+static void put_softness(const bda_bullet_rows *rows, int64_t spring, double correction, const double softness[6],
+                         int64_t flags)
+{
+    uint64_t address = rows->addresses[spring];
+    for (int row = 0; row < 6; row++) {
+        put_double(address + (uint64_t)rows->correction[row], correction);
+        put_double(address + (uint64_t)rows->softness[row], softness[row]);
+    }
+    put_int(address + (uint64_t)rows->flags, (int32_t)flags);
+}
+
+/* Write one of r frames: axes (3, 3, r), as columns, and positions (3, r). */
+static void put_frame(uint64_t address, const double *axes, const double *points, int64_t r)
+{
+    for (uint64_t row = 0; row < 4; row++)
+        for (uint64_t axis = 0; axis < 3; axis++)
+            put_double(address + IN_VECTOR * row + 8 * axis,
+                       row < 3 ? axes[(3 * row + axis) * (uint64_t)r] : points[axis * (uint64_t)r]);
+}
+
+/* Have springs (r,) be deformed by limits (6, r) times signs (6,) at the end of the coming sub-step. */
 int bda_expect(const bda_bullet_rows *rows, int64_t count, const int64_t *chosen, const double *limits,
                const double *signs)
 {
     if (!are_rows(rows, count, chosen))
         return BDA_OUT_OF_RANGE;
     for (int64_t at = 0; at < count; at++)
-        for (int row = 0; row < 6; row++) {
-            int64_t place = row * rows->count + chosen[at];
-            uint64_t address = rows->addresses[chosen[at]];
-            double limit = limits[row * count + at] * signs[row];
-            if (!rows->held[place])
-                continue;
-            put_double(address + (uint64_t)rows->lower[row], rows->resists[place] ? limit : 1.0);
-            put_double(address + (uint64_t)rows->upper[row], rows->resists[place] ? limit : -1.0);
-        }
+        put_limits(rows, chosen[at], limits + at, count, signs);
     return BDA_DONE;
 }
 
@@ -307,12 +333,10 @@ int bda_soften(const bda_bullet_rows *rows, int64_t count, const int64_t *chosen
     if (!are_rows(rows, count, chosen))
         return BDA_OUT_OF_RANGE;
     for (int64_t at = 0; at < count; at++) {
-        uint64_t address = rows->addresses[chosen[at]];
-        for (int row = 0; row < 6; row++) {
-            put_double(address + (uint64_t)rows->correction[row], correction);
-            put_double(address + (uint64_t)rows->softness[row], softness[row * count + at]);
-        }
-        put_int(address + (uint64_t)rows->flags, (int32_t)flags);
+        double own[6];
+        for (int row = 0; row < 6; row++)
+            own[row] = softness[row * count + at];
+        put_softness(rows, chosen[at], correction, own, flags);
     }
     return BDA_DONE;
 }
@@ -323,13 +347,33 @@ int bda_put_frames(const bda_bullet_rows *rows, int64_t frame, int64_t count, co
 {
     if (!are_rows(rows, count, chosen))
         return BDA_OUT_OF_RANGE;
+    for (int64_t at = 0; at < count; at++)
+        put_frame(rows->addresses[chosen[at]] + (uint64_t)frame, axes + at, points + at, count);
+    return BDA_DONE;
+}
+
+/* Have springs (r,), of those that exist (k,), resist as cracks do: all of an error is corrected in a sub-step. */
+int bda_put_cracks(const bda_bullet_rows *rows, const bda_expected_cracks *e, const bda_softness *s, int64_t count,
+                   const int64_t *chosen, const uint8_t *exists)
+{
+    static const double SIGNS[6] = {1.0, 1.0, 1.0, -1.0, -1.0, -1.0}; /* Bullet takes rotations the other way */
+    if (!are_rows(rows, count, chosen))
+        return BDA_OUT_OF_RANGE;
     for (int64_t at = 0; at < count; at++) {
-        uint64_t address = rows->addresses[chosen[at]] + (uint64_t)frame;
-        for (uint64_t row = 0; row < 4; row++)
-            for (uint64_t axis = 0; axis < 3; axis++) {
-                const double *from = row < 3 ? axes + (3 * row + axis) * (uint64_t)count : points + axis * (uint64_t)count;
-                put_double(address + IN_VECTOR * row + 8 * axis, from[at]);
-            }
+        uint64_t address = rows->addresses[chosen[at]];
+        double softness[6];
+        if (!exists[chosen[at]])
+            continue;
+        for (int row = 0; row < 6; row++) {
+            int64_t place = row * rows->count + chosen[at];
+            double own = e->softness[row * count + at];
+            rows->resists[place] = rows->held[place] && own < s->free_from;
+            softness[row] = own > s->softest ? s->softest : own;
+        }
+        put_frame(address + (uint64_t)s->frame_a, e->first_axes + at, e->first_points + at, count);
+        put_frame(address + (uint64_t)s->frame_b, e->second_axes + at, e->second_points + at, count);
+        put_softness(rows, chosen[at], 1.0, softness, s->flags);
+        put_limits(rows, chosen[at], e->deformations + at, count, SIGNS);
     }
     return BDA_DONE;
 }

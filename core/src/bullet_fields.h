@@ -9,8 +9,7 @@
 #ifndef BDA_BULLET_FIELDS_H
 #define BDA_BULLET_FIELDS_H
 
-#include "core.h"
-#include "vectors.h"
+#include "cracks.h"
 
 /* n rigid bodies (btRigidBody). */
 typedef struct {
@@ -51,8 +50,15 @@ typedef struct {
     const uint64_t *addresses;      /* (k,) */
     const int64_t *lower, *upper, *correction, *softness; /* (6,) */
     int64_t flags;
-    const uint8_t *held, *resists;  /* (6, k), whether rows hold a shift or rotation, and whether they resist it now */
+    const uint8_t *held;            /* (6, k), whether rows hold a shift or rotation */
+    uint8_t *resists;               /* (6, k), and whether they resist it now */
 } bda_bullet_rows;
+
+/* How soft rows may be, and where frames on both bodies are: offsets in bytes. */
+typedef struct {
+    double softest, free_from; /* as soft as Bullet's solver bears, and as soft as rows that are left free */
+    int64_t flags, frame_a, frame_b;
+} bda_softness;
 
 BDA_API int bda_take_snapshot(bda_bullet_bodies *bodies, const bda_bullet_connections *connections, int64_t count,
                               const int64_t *sides, double *components, double *loads, double *impulses,
@@ -67,6 +73,8 @@ BDA_API int bda_expect(const bda_bullet_rows *rows, int64_t count, const int64_t
                        const double *signs);
 BDA_API int bda_soften(const bda_bullet_rows *rows, int64_t count, const int64_t *chosen, double correction,
                        const double *softness, int64_t flags);
+BDA_API int bda_put_cracks(const bda_bullet_rows *rows, const bda_expected_cracks *expected,
+                           const bda_softness *softness, int64_t count, const int64_t *chosen, const uint8_t *exists);
 BDA_API int bda_put_frames(const bda_bullet_rows *rows, int64_t frame, int64_t count, const int64_t *chosen,
                            const double *axes, const double *points);
 

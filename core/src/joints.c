@@ -227,24 +227,30 @@ void mass_matrix(const double *masses, const double *inertias, const double *rot
     }
 }
 
-/* Write the energy (k,) in connections of stiffness (6, 6, k) with strains (6, k). */
-void bda_stored(int64_t count, const double *stiffness, const double *strains, double *energies)
+/* Write the energy (m,) in chosen connections (k,), of all with a stiffness (6, 6, m), with deformations (6, k), of which
+ * offsets (6, m) count as none; 0 for the others. */
+int bda_stored(int64_t m, const double *stiffness, const double *offsets, int64_t count, const int64_t *chosen,
+               const double *deformations, double *energies)
 {
-    for (int64_t row = 0; row < count; row++) {
-        double own[6], amounts[6];
+    if (!all_below(chosen, count, m))
+        return BDA_OUT_OF_RANGE;
+    memset(energies, 0, (size_t)m * sizeof *energies);
+    for (int64_t at = 0; at < count; at++) {
+        double own[6], amounts[6], energy = 0.0;
         for (int axis = 0; axis < 6; axis++)
-            own[axis] = strains[axis * count + row];
-        stressed(stiffness + row, count, own, amounts);
-        energies[row] = 0.0;
+            own[axis] = deformations[axis * count + at] - offsets[axis * m + chosen[at]];
+        stressed(stiffness + chosen[at], m, own, amounts);
         for (int axis = 0; axis < 6; axis++)
-            energies[row] += 0.5 * amounts[axis] * own[axis];
+            energy += 0.5 * amounts[axis] * own[axis];
+        energies[chosen[at]] = energy;
     }
+    return BDA_DONE;
 }
 
 /* Write velocities (6, n) at the end of a sub-step without connections. Bullet leaves a share (6, n) of those of bodies
  * that move freely; loads (6, n) act on bodies with inverse masses (n,) and inverse inertias (3, 3, n). */
-void bda_velocities_alone(int64_t n, const double *velocities, const double *left, const double *inverse_masses,
-                          const double *inverse_inertias, const double *loads, double substep_s, double *alone)
+int bda_velocities_alone(int64_t n, const double *velocities, const double *left, const double *inverse_masses,
+                         const double *inverse_inertias, const double *loads, double substep_s, double *alone)
 {
     for (int64_t body = 0; body < n; body++) {
         int moves = inverse_masses[body] > 0.0;
@@ -259,4 +265,5 @@ void bda_velocities_alone(int64_t n, const double *velocities, const double *lef
             alone[turn] = (moves ? left[turn] : 1.0) * velocities[turn] + substep_s * turning;
         }
     }
+    return BDA_DONE;
 }

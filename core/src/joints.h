@@ -35,10 +35,11 @@ typedef struct {
 
 BDA_API int bda_deformations(const bda_frames *frames, const bda_places *places, int64_t count, const int64_t *chosen,
                              double *deformations);
-BDA_API void bda_stored(int64_t count, const double *stiffness, const double *strains, double *energies);
-BDA_API void bda_velocities_alone(int64_t bodies, const double *velocities, const double *left,
-                                  const double *inverse_masses, const double *inverse_inertias, const double *loads,
-                                  double substep_s, double *alone);
+BDA_API int bda_stored(int64_t all, const double *stiffness, const double *offsets, int64_t count,
+                       const int64_t *chosen, const double *deformations, double *energies);
+BDA_API int bda_velocities_alone(int64_t bodies, const double *velocities, const double *left,
+                                 const double *inverse_masses, const double *inverse_inertias, const double *loads,
+                                 double substep_s, double *alone);
 
 void rows_of_joint(const bda_frames *frames, const bda_places *places, int64_t row, joint_rows *rows);
 void blocks_of_joint(const joint_rows *rows, const double *stiffness, int64_t stride, double implicit_s2,

@@ -322,6 +322,12 @@ static void add_on_bodies(const bda_substep *s, double *sums)
     }
 }
 
+/* Deformation of a connection that acts, beyond its shape. */
+static double strain_of(const bda_substep *s, int axis, int64_t at)
+{
+    return s->deformations[axis * s->acting_count + at] - s->offsets[axis * s->frames->count + s->acting[at]];
+}
+
 /* Find rates and impulses of connections as if no body was slowed down, and the sums of these. */
 static void begin_impulses(work *w)
 {
@@ -335,7 +341,7 @@ static void begin_impulses(work *w)
         motion_of(s->velocities, n, s->frames->second[row], second);
         rates_of_joint(s->rows + row, first, second, rates);
         for (int axis = 0; axis < 6; axis++)
-            strains[axis] = s->substep_s * s->strains[axis * k + at] - implicit * rates[axis];
+            strains[axis] = s->substep_s * strain_of(s, axis, at) - implicit * rates[axis];
         stressed(s->stiffness + row, s->frames->count, strains, amounts);
         loads_of_joint(s->rows + row, amounts, of_first, of_second);
         for (int axis = 0; axis < 6; axis++) {
@@ -465,10 +471,12 @@ static int are_given(work *w)
         !are_finite(s->stiffness, BLOCK, m, BDA_STIFFNESS, &s->wrong) ||
         !are_finite(s->damping_s, 1, m, BDA_DAMPING, &s->wrong))
         return 0;
-    if (!are_finite(s->strains, 6, s->acting_count, BDA_STRAINS, &s->wrong)) {
-        s->wrong.row = s->acting[s->wrong.row];
-        return 0;
-    }
+    for (int64_t at = 0; at < s->acting_count; at++)
+        for (int axis = 0; axis < 6; axis++)
+            if (!isfinite(strain_of(s, axis, at))) {
+                s->wrong = (bda_not_finite){BDA_STRAINS, s->acting[at]};
+                return 0;
+            }
     for (int64_t number = 0; number < s->term_count; number++) {
         const bda_term *t = s->terms[number];
         if (!is_term_finite(w->all.terms + number, &s->wrong)) {

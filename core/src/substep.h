@@ -34,10 +34,10 @@ typedef struct {
     const int64_t *part_of_body, *part_of_connection, *within_part;
     uint8_t *stale;             /* (p + 1,), whose rows and equations are to be made again; the last is of none */
     const uint8_t *awake;       /* (p + 1,) */
-    /* Connections (k,) that act, in ascending order, and by how much they are deformed beyond their shape (6, k). */
+    /* Connections (k,) that act, in ascending order, with deformations (6, k), of which offsets (6, m) are without load. */
     int64_t acting_count;
     const int64_t *acting;
-    const double *strains;
+    const double *deformations, *offsets;
     int64_t term_count;
     bda_term *const *terms;     /* (t,) */
     int64_t most_guesses;

@@ -26,7 +26,7 @@ from bridge_demolition_addon.engineering.elasticity.bearings import Bearings, Pa
 from bridge_demolition_addon.engineering.elasticity.cracks import Cracks, ExpectedCracks, corner_positions
 from bridge_demolition_addon.engineering.elasticity.equations import BlockSystem, RigidBodies
 from bridge_demolition_addon.engineering.elasticity.joint_rows import JointFrames
-from bridge_demolition_addon.engineering.elasticity.kept_joints import stored_energies, velocities_alone
+from bridge_demolition_addon.engineering.elasticity.kept_joints import KeptJoints, velocities_alone
 from bridge_demolition_addon.engineering.elasticity.springs import PressedSprings, SpringPositions
 from bridge_demolition_addon.engineering.elasticity.steel_bars import Steel
 from bridge_demolition_addon.engineering.elasticity.structure import ElasticStructure, StepInput
@@ -106,7 +106,9 @@ class Cases:
         bodies = self.count(6)
         moving = [self.numbers(6, bodies), self.numbers(6, bodies), self.numbers(bodies)]
         velocities_alone(*moving, self.numbers(3, 3, bodies), self.numbers(6, bodies), 0.01)
-        stored_energies(self.numbers(6, 6, bodies), self.numbers(6, bodies))
+        count = self.count(9)
+        joints = KeptJoints(self.frames(bodies, count), bodies, self.numbers(6, 6, count), self.numbers(6, count))
+        joints.stored_j(self.among(4, count), *self.places(bodies))
 
     def of_equations(self):
         """No connection, repeated pairs, a body with itself, and bodies whose motion is known."""
@@ -371,7 +373,8 @@ class Cases:
             ("stale", np.ones(parts + 1, bool), parts + 1),
             ("awake", rng.integers(0, 2, parts + 1).astype(bool), parts + 1),
             ("acting", self.odd(acting), len(acting)),
-            ("strains", self.numbers(6, len(acting)), 6 * len(acting)),
+            ("deformations", self.numbers(6, len(acting)), 6 * len(acting)),
+            ("offsets", self.numbers(6, count), 6 * count),
             *((name, np.zeros((6, len(acting))), 6 * len(acting)) for name in ("rates", "of_first", "of_second")),
             *((name, np.zeros((6, bodies)), 6 * bodies) for name in ("of_bodies", "ends")),
         ):

@@ -1,34 +1,20 @@
 """Elastic connections with what is known of them from one sub-step to the next: most of it changes in none.
 
 All arrays have their components first.
-
-All arrays have their components first.
 """
 
 from __future__ import annotations
 
-import ctypes
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray, same
-from ..core.library import function
+from ..core.calls import call
+from ..core.structs import Doubles
 from .joint_rows import JointFrames
 from .substep import Frames, Places, deformations
-
-_CHOICES = 2
-"""Sets of connections of which a copy is kept: those that act, and those that are intact, also where bodies sleep."""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class ChosenJoints:
-    """Some connections (k,), in order, with what never changes of them; all of them without a copy."""
-
-    numbers: IntArray
-    stiffness: FloatArray  # (6, 6, k)
-    offsets: FloatArray  # (6, k), deformations without load
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -56,30 +42,22 @@ class KeptJoints:
     ----------
     core_frames : Frames
         Their frames, as the compiled core takes them.
+    stiffness, offsets : (6, 6, m) float, (6, m) float
+        As they were given.
     """
 
     def __init__(self, frames: JointFrames, bodies: int, stiffness: FloatArray, offsets: FloatArray):
         self.core_frames = Frames.of(frames, bodies)
-        self._count, self._stiffness, self._offsets = len(frames), stiffness, offsets
-        self._chosen: list[ChosenJoints] = []  # those that were asked for last
+        self.stiffness = Doubles.checked("stiffness", np.ascontiguousarray(stiffness), 36 * len(frames))
+        self.offsets = Doubles.checked("offsets", np.ascontiguousarray(offsets), 6 * len(frames))
         self._deformed: _Deformed | None = None
 
-    def choose(self, numbers: IntArray) -> ChosenJoints:
-        """Return some connections (k,), in order; copied only where others were asked for before."""
-        for chosen in self._chosen:
-            if same(numbers, chosen.numbers):
-                return chosen
-        stiffness = self._stiffness if len(numbers) == self._count else self._stiffness.take(numbers, axis=-1)
-        chosen = ChosenJoints(numbers, stiffness, self._offsets.take(numbers, axis=-1))
-        self._chosen = [chosen, *self._chosen[: _CHOICES - 1]]
-        return chosen
-
-    def deformations(self, chosen: ChosenJoints, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
-        """Return deformations (6, k) with bodies at positions (3, n) in rotations (3, 3, n).
+    def deformations(self, numbers: IntArray, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
+        """Return deformations (6, k) of some connections (k,), in order, with bodies in certain places.
 
         They are worked out again only where bodies have moved.
         """
-        kept, numbers = self._deformed, chosen.numbers
+        kept = self._deformed
         if kept is None or not kept.has(numbers, positions_m, rotations):
             found = deformations(self.core_frames, Places.of(positions_m, rotations), numbers)
             self._deformed = kept = _Deformed(positions_m, rotations, numbers, found)
@@ -87,8 +65,13 @@ class KeptJoints:
             return kept.deformations
         return kept.deformations[:, np.searchsorted(kept.numbers, numbers)]
 
-
-_POINTER = ctypes.c_void_p
+    def stored_j(self, numbers: IntArray, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
+        """Return the energy (m,) in some connections (k,), in order, and none in the others."""
+        deformed, count = self.deformations(numbers, positions_m, rotations), self.core_frames.count
+        stored = np.empty(count)
+        deformed = Doubles.checked("deformations", np.ascontiguousarray(deformed), 6 * len(numbers))
+        call("bda_stored", count, self.stiffness, self.offsets, len(numbers), numbers, deformed, stored)
+        return stored
 
 
 def velocities_alone(
@@ -112,8 +95,7 @@ def velocities_alone(
     for array, size in zip(arrays, (6, 6, 1, 9, 6), strict=True):
         if array.size != size * count:
             raise ValueError(f"there are {array.size} numbers of {count} bodies: expected {size * count}")
-    call = function("bda_velocities_alone", ctypes.c_int64, *[_POINTER] * 5, ctypes.c_double, _POINTER, returns=None)
-    call(count, *(array.ctypes.data for array in arrays), substep_s, alone.ctypes.data)
+    call("bda_velocities_alone", count, *arrays, substep_s, alone)
     return alone
 
 
@@ -132,15 +114,3 @@ def put_loads(
     loads[:, ~holding] = 0.0
     for numbers, of_first, of_second in parts:
         loads[:, numbers] = np.where(on_first[numbers], of_first, of_second) / substep_s
-
-
-def stored_energies(stiffness: FloatArray, strains: FloatArray) -> FloatArray:
-    """Return the energy (k,) in connections of stiffness (6, 6, k) with strains (6, k)."""
-    count = strains.shape[1]
-    energies = np.empty(count)
-    stiffness, strains = (np.ascontiguousarray(array, float) for array in (stiffness, strains))
-    if stiffness.size != 36 * count or strains.size != 6 * count:
-        raise ValueError(f"stiffness has shape {stiffness.shape}, strains {strains.shape}")
-    call = function("bda_stored", ctypes.c_int64, *[_POINTER] * 3, returns=None)
-    call(count, stiffness.ctypes.data, strains.ctypes.data, energies.ctypes.data)
-    return energies

@@ -23,7 +23,7 @@ from .crack_state import CrackState
 from .cracks import Cracks
 from .equations import SLACK, BlockSystem, RigidBodies, connected_parts, first_frequency, stiffness_blocks, without
 from .joint_rows import JointFrames, joint_positions
-from .kept_joints import KeptJoints, stored_energies
+from .kept_joints import KeptJoints
 from .substep import Places, Substep, Term
 
 
@@ -156,13 +156,13 @@ class ElasticStructure:
         self._count, self._moves = len(bodies), bodies.moves
         positions = joint_positions(frames, bodies.positions_m, bodies.rotations)
         self._joints = KeptJoints(frames, self._count, stiffness, positions.deformations())
-        self._stiffness = np.ascontiguousarray(stiffness)
         self._solved = Substep()
         self._solved.from_rest = int(from_rest)
         for name, array, size in (
             ("masses", np.ascontiguousarray(bodies.masses_kg, float), self._count),
             ("inertias", np.ascontiguousarray(bodies.inertias_kg_m2), 9 * self._count),
-            ("stiffness", self._stiffness, 36 * len(frames)),
+            ("stiffness", self._joints.stiffness, 36 * len(frames)),
+            ("offsets", self._joints.offsets, 6 * len(frames)),
             ("rows", np.zeros((len(frames), 36)), 36 * len(frames)),
         ):
             self._solved.point(name, array, size)
@@ -222,13 +222,13 @@ class ElasticStructure:
         awake = self._awake_parts(start)
         are_awake = awake[self.part_of_connection]
         acts = self._intact & are_awake[: len(self._frames)]
-        chosen = self._joints.choose(np.flatnonzero(acts))
-        deformed = self._joints.deformations(chosen, start.positions_m, start.rotations)
+        numbers = np.flatnonzero(acts)
+        deformed = np.ascontiguousarray(self._joints.deformations(numbers, start.positions_m, start.rotations))
         cracks = self._acting_terms(self._cracks, are_awake, start)
         springs = [self._acting_terms(law, acts, start) for law in self._springs]
         bare_bars = self._acting_terms(self._bare_bars, are_awake, start)
         terms = [term for term in (cracks, *springs, bare_bars) if term is not None]
-        acting, bodies = len(chosen.numbers), self._count
+        acting, bodies = len(numbers), self._count
         results = {
             "rates": np.empty((6, acting)),
             "of_first": np.empty((6, acting)),
@@ -242,14 +242,14 @@ class ElasticStructure:
         solved.point("awake", awake, len(awake))
         solved.point("velocities", np.ascontiguousarray(start.velocities), 6 * bodies)
         solved.point("damping_s", self._damping_s, len(self._frames))
-        solved.point("acting", chosen.numbers, acting)
-        solved.point("strains", deformed - chosen.offsets, 6 * acting)
+        solved.point("acting", numbers, acting)
+        solved.point("deformations", deformed, 6 * acting)
         for name, array in results.items():
             solved.point(name, array, array.size)
         solved.solve(self._joints.core_frames, Places.of(start.positions_m, start.rotations), terms)
         of_cracks = cracks.impulses if cracks is not None else (np.zeros((6, 0)), np.zeros((6, 0)))
         return ElasticStep(
-            acting=chosen.numbers,
+            acting=numbers,
             deformations=deformed,
             rates=results["rates"],
             of_first=results["of_first"],
@@ -277,10 +277,7 @@ class ElasticStructure:
 
         Bodies are at positions (3, n) in rotations (3, 3, n).
         """
-        chosen = self._joints.choose(np.flatnonzero(self._intact))
-        strains = self._joints.deformations(chosen, positions_m, rotations) - chosen.offsets
-        stored_j = np.zeros(len(self._frames))
-        stored_j[chosen.numbers] = stored_energies(chosen.stiffness, strains)
+        stored_j = self._joints.stored_j(np.flatnonzero(self._intact), positions_m, rotations)
         if cracks is not None:
             stored_j[cracks.rows] = cracks.stored_j
         for law in self._springs:

@@ -268,7 +268,7 @@ class Substep(Struct):
         ("awake", Flags),
         ("acting_count", Count),
         ("acting", Indices),
-        ("strains", Doubles),
+        *((name, Doubles) for name in ("deformations", "offsets")),
         ("term_count", Count),
         ("terms", ctypes.c_void_p),
         ("most_guesses", Count),

@@ -288,13 +288,7 @@ class ElasticConnections:
         places = Places.of(motion.position_components_m, motion.rotation_components)
         inertia = motion.inverse_masses, motion.inverse_inertia_components
         expected = ExpectedCracks.of(step.crack_term, places, *inertia, step.velocities, self._substep_s)
-        exists = self._world.constraints.exists[step.cracks]
-        rows, frames = step.cracks[exists], zip(expected.first, expected.second, strict=True)
-        axes, points_m = ([values.compress(exists, axis=-1) for values in of_bodies] for of_bodies in frames)
-        softness, deformations = (values.compress(exists, axis=-1) for values in expected.rows)
-        self._rows.move_frames(rows, axes, points_m)
-        self._rows.soften(rows, softness)
-        self._rows.expect(rows, deformations)
+        self._rows.resist_as(expected, step.cracks, self._world.constraints.exists)
 
     def energy(self, intact: np.ndarray, positions_m: np.ndarray, rotations: np.ndarray) -> ElasticEnergy:
         """Return what is stored in connections (m,) that are intact, or in their reinforcement, and its state.
