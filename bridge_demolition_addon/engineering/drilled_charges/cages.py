@@ -226,6 +226,7 @@ class Cages:
             "bared_lines": groups.lines_m[:, chosen],
             "holds": groups.holds[chosen],
         }
+        law |= {name: np.zeros(count) for name in ("lengths", "stays", "pulled_limits", "pressed_limits")}
         return Term.of(
             BARE_BARS,
             self.rows[chosen],
