@@ -15,14 +15,14 @@ from ..model.reinforcement.concrete_members import plain_concrete_text
 from ..model.results.arrays import SHORT
 from ..model.results.collapse import ConnectionCounts
 from ..model.results.extremes import bars_text, largest_use_text
-from ..model.results.moving import creep_text, gone_text
+from ..model.results.moving import creep_text
 from ..model.results.summary import first_hit_s
 from ..model.run_folder.files import RESULT_FILES, remove_report
 from ..model.run_folder.folder import check_folder, numbered_folder
 from ..model.scenario import Scenario
 from ..model.scenario.file import read_scenario
 from ..model.sequence.checked_model import checked_model
-from ..model.sequence.ending import doubts_of_run, first_doubts
+from ..model.sequence.ending import doubts_of_run, first_doubts, unusable_texts
 from ..model.stages.stability import stability_texts
 from ..model.structure.model import Model
 from ..report.languages.translation import ENGLISH, Translation
@@ -63,7 +63,9 @@ def add_to(commands: argparse._SubParsersAction) -> None:
         help=f"make a report of each run at its end, and one that compares all of them, in DIR/{COMPARISON_FOLDER}",
     )
     add_report_options(parser)
-    parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
+    parser.add_argument(
+        "--quiet", action="store_true", help="print nothing but errors, and that a run is not to be used"
+    )
     parser.set_defaults(execute=run)
 
 
@@ -152,8 +154,8 @@ def _run_and_report(
         )
     report = _report([output], None, arguments, progress) if arguments.report else []
     if arguments.quiet:
-        if gone := gone_text(summary):
-            print(f"bda: {path}: {gone}", file=sys.stderr, flush=True)
+        for text in unusable_texts(summary):
+            print(f"bda: {path}: {text}", file=sys.stderr, flush=True)
     else:
         progress.finish()
         system = UnitSystem(arguments.units or scenario.report.units or UnitSystem.METRIC)

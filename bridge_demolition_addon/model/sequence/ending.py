@@ -188,17 +188,22 @@ def doubts_of_run(summary: Mapping[str, Any]) -> tuple[str, ...]:
 
 def first_doubts(summary: Mapping[str, Any]) -> tuple[str, ...]:
     """Return what has to be said before any result: no loads, no outcome, still moving, or energy gained."""
-    energy, stability = summary.get("energy"), summary.get("stability") or {}
-    made = energy["made_by_solver"]["share_of_dissipated"] if energy else 0.0
+    stability = summary.get("stability") or {}
     texts = (
         only_motion_text(summary),
-        gone_text(summary),
-        much_made_text(made),
+        *unusable_texts(summary),
         Ending.of(summary).text,
         moving_text(summary),
         *stability.get("unusual", ()),
     )
     return tuple(text for text in texts if text)
+
+
+def unusable_texts(summary: Mapping[str, Any]) -> tuple[str, ...]:
+    """Return why a run is not to be used, as sentences without full stops: shards that are gone, energy made."""
+    energy = summary.get("energy")
+    made = energy["made_by_solver"]["share_of_dissipated"] if energy else 0.0
+    return tuple(text for text in (gone_text(summary), much_made_text(made)) if text)
 
 
 def only_motion_text(summary: Mapping[str, Any]) -> str:

@@ -9,7 +9,7 @@ from support.scenarios import I235
 from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.scenario import BlastZone, Charge, Equipment, Load, MemberCut, Neighbour
 from bridge_demolition_addon.model.sequence.checked_model import checked_model
-from bridge_demolition_addon.model.sequence.ending import first_doubts
+from bridge_demolition_addon.model.sequence.ending import first_doubts, unusable_texts
 from bridge_demolition_addon.model.sequence.unusual import unusual_texts
 from bridge_demolition_addon.report.languages.translation import Translation
 
@@ -109,6 +109,16 @@ def test_a_run_whose_shards_left_by_kilometres_is_not_to_be_used():
     for language in ("de", "es", "fr", "zh_hans"):
         translation = Translation.into(language)
         assert translation.text(first_doubts(thrown)[0]) and not translation.missing
+
+
+def test_what_makes_a_run_unusable_is_said_of_quiet_runs_too():
+    made = {"energy": {"made_by_solver": {"share_of_dissipated": 0.592}}, "moving_at_end": None, "simulated_s": 1.0}
+    thrown = made | {"largest_throw": {"throw_m": 1057e3, "body": "Shard 3"}}
+    starts = [text.split(":")[0] for text in unusable_texts(thrown)]
+    assert starts == ["This run is not to be used", "This run is not to be used for distances"]
+    assert "59.2 %" in unusable_texts(made | {"largest_throw": {"throw_m": 1.0, "body": "Shard 3"}})[0]
+    less = {"energy": {"made_by_solver": {"share_of_dissipated": 0.049}}}
+    assert unusable_texts(thrown | less | {"largest_throw": {"throw_m": 1.0, "body": "Shard 3"}}) == ()
 
 
 @pytest.mark.parametrize("name", USUAL)
