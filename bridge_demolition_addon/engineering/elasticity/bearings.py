@@ -107,15 +107,6 @@ class PadSprings:
         return PadSprings(**{name: np.concatenate(pair) for name, pair in columns.items()})
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class PadsAtRest:
-    """Forces of c connections by pads, and their stiffness, at certain positions of the bodies."""
-
-    rows: IntArray  # (c,)
-    blocks: tuple[FloatArray, FloatArray, FloatArray]  # (6, 6, c), for the first and second bodies, and between
-    loads: tuple[FloatArray, FloatArray]  # (6, c), on the first and on the second bodies
-
-
 class Pads(Struct):
     """Bearings as the core takes them: `bda_pads` in `core/src/springs.h`."""
 
@@ -194,19 +185,24 @@ class Bearings(SpringsOfConnections):
         """Return the pressing forces (p,) by which springs hold sideways, with bodies at these positions."""
         return self._holding_by(self._pressing(self._positions.gaps(positions_m, rotations)[0]))
 
-    def at_rest(self, positions_m: FloatArray, rotations: FloatArray, pressed_n: FloatArray | None) -> PadsAtRest:
-        """Return forces and stiffness with bodies at these positions.
+    def add_loads(
+        self,
+        loads: Sequence[FloatArray],
+        connections: IntArray,
+        positions_m: FloatArray,
+        rotations: FloatArray,
+        pressed_n: FloatArray | None,
+    ) -> None:
+        """Add forces with bodies at these positions to those (6, r) on first and second bodies of connections (r,).
 
-        Springs slide by friction times `pressed_n` (p,); without it they neither slide nor lift off.
+        These are in ascending order. Springs slide by friction times `pressed_n` (p,); without it they neither slide
+        nor lift off.
         """
         gaps, arms, arms_below = self._positions.gaps(positions_m, rotations)
-        if pressed_n is None:
-            forces, tangents = -turned(self._law.whole, gaps), self._law.whole
-        else:
-            forces, tangents = replace(self._law, pressed_n=pressed_n).resisted(gaps)
-        blocks = stiffness_of_springs(self._positions, tangents, arms, arms_below)
-        loads = loads_of_springs(self._positions, forces, arms, arms_below)
-        return PadsAtRest(self.rows, blocks, loads)
+        forces = self._resisted(gaps, pressed_n)[0]
+        mine, at = self._among(connections)
+        for load, more in zip(loads, loads_of_springs(self._positions, forces, arms, arms_below), strict=True):
+            load[:, at] += more[:, mine]
 
     def add_stiffness(
         self,
@@ -216,11 +212,23 @@ class Bearings(SpringsOfConnections):
         rotations: FloatArray,
         pressed_n: FloatArray | None,
     ) -> None:
-        """Add the stiffness `at_rest` to the blocks (6, 6, r) of connections (r,), which are in ascending order."""
-        mine = np.flatnonzero(np.isin(self.rows, connections))
-        at = np.searchsorted(connections, self.rows[mine])
-        for block, more in zip(blocks, self.at_rest(positions_m, rotations, pressed_n).blocks, strict=True):
+        """Add their stiffness to the blocks (6, 6, r) of connections (r,), as `add_loads` does forces."""
+        gaps, arms, arms_below = self._positions.gaps(positions_m, rotations)
+        tangents = self._resisted(gaps, pressed_n)[1]
+        mine, at = self._among(connections)
+        for block, more in zip(blocks, stiffness_of_springs(self._positions, tangents, arms, arms_below), strict=True):
             block[..., at] += more[..., mine]
+
+    def _resisted(self, gaps: FloatArray, pressed_n: FloatArray | None) -> tuple[FloatArray, FloatArray]:
+        """Forces (3, p) and tangents (3, 3, p)."""
+        if pressed_n is None:
+            return -turned(self._law.whole, gaps), self._law.whole
+        return replace(self._law, pressed_n=pressed_n).resisted(gaps)
+
+    def _among(self, connections: IntArray) -> tuple[IntArray, IntArray]:
+        """Return which of the bearings are among some connections, and where there."""
+        mine = np.flatnonzero(np.isin(self.rows, connections))
+        return mine, np.searchsorted(connections, self.rows[mine])
 
     def loads_at_rest(self, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
         """Return forces and moments (6, c) on the first bodies, about the middle of each connection's springs."""

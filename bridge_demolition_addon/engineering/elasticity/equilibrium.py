@@ -179,8 +179,6 @@ class _PartOnBearings:
         self._bearings, self._rows = bearings, rows
         self._pressed_n: FloatArray | None = None
         self._changes = 0
-        self._mine = np.flatnonzero(np.isin(bearings.rows, rows))
-        self._at = np.searchsorted(rows, bearings.rows[self._mine])
 
     def follow(self, positions_m: FloatArray, rotations: FloatArray) -> None:
         """Let pads lift off and slide, by the pressing forces at these positions."""
@@ -192,9 +190,7 @@ class _PartOnBearings:
 
     def add_loads(self, loads: tuple[FloatArray, FloatArray], positions_m: FloatArray, rotations: FloatArray) -> None:
         """Add the forces of pads to those (6, r) on first and second bodies."""
-        on_pads = self._bearings.at_rest(positions_m, rotations, self._pressed_n)
-        for load, more in zip(loads, on_pads.loads, strict=True):
-            load[:, self._at] += more[:, self._mine]
+        self._bearings.add_loads(loads, self._rows, positions_m, rotations, self._pressed_n)
 
     def add_blocks(self, blocks: Sequence[FloatArray], positions_m: FloatArray, rotations: FloatArray) -> None:
         """Add the stiffness of pads to the blocks (6, 6, r) of connections."""
