@@ -19,7 +19,7 @@ from ..model.scenario.scenario import rules_of_bars
 from ..model.sequence.checked_model import ModelWorksite, checked_model
 from ..model.sequence.ending import AWAKE_S, self_collapse_text
 from ..model.stages.stability import stability_of
-from ..model.stages.stages import equipment_facts
+from ..model.stages.stages import count_of_stages, equipment_facts
 from ..model.stages.standing import made_elastic
 from ..model.structure.bearing_ranges import LEAST_CUTS, MOST_CUTS, bearing_ranges
 from ..model.structure.blast_zones import placed_zones, zone_totals
@@ -40,7 +40,14 @@ from ..model.structure.steel_bars import steel_facts
 from ..model.structure.tendons import tendon_facts
 from ..model.structure.zone_loads import ZoneLoad
 from ..model.terrain.built import terrain_facts
-from ..studies.estimate import FACTOR, disk_megabytes, duration_text, megabytes_by_size, seconds_by_size
+from ..studies.estimate import (
+    FACTOR,
+    disk_megabytes,
+    duration_text,
+    megabytes_by_size,
+    seconds_by_size,
+    seconds_of_stages,
+)
 from ..system.progress import Progress
 from .arguments import naming
 from .blender import simulation_module
@@ -176,6 +183,13 @@ def _cost_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
         f"about {duration_text(seconds)}{at_most}: on one core, without pictures, to a factor of {FACTOR:g}",
     )
     yield "", f"about {memory_mb:.0f} MB of memory, and {disk_megabytes(scenario, model):.0f} MB on the disk"
+    if scenario.connections.is_elastic and (stages := count_of_stages(scenario, model)) > 1:
+        at_rest_s, with_factors_s = seconds_of_stages(scenario, model, stages)
+        yield (
+            "bda stages takes",
+            f"about {duration_text(with_factors_s)} for {stages} stages, to a factor of {FACTOR:g}",
+        )
+        yield "", f"about {duration_text(at_rest_s)} without load factors, by --no-factor"
 
 
 def _awake_facts(scenario: Scenario) -> Iterator[Fact]:

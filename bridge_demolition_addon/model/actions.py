@@ -112,6 +112,9 @@ class Worksite(Protocol):
     def pick_of(self, lift: Any) -> Any:
         """Return what a crane takes in a lift."""
 
+    def taken_before(self, lift: Any) -> Iterator[tuple[str, float]]:
+        """Yield the names of other lifts that take some of a lift's part no later than it, and the mass of that, kg."""
+
     def slings_of(self, lift: Any) -> Sequence[Any]:
         """Return the slings of a lift as cables of a run."""
 

@@ -166,10 +166,13 @@ class Lift(Part):
     def facts(self, site: Worksite) -> Iterator[Fact]:
         part, pick = site.affected_by(self), site.pick_of(self)
         used = pick.heavier_by * pick.shards_kg / self.capacity_kg
+        reach_m = radius_m(self, self.hook_m or pick.centre_m)
+        at_m = "" if reach_m is None else f" at {reach_m:.1f} m"
         yield (
             self.name,
-            f"{pick.masses}, of {', '.join(part.members)}, {used:.0%} of what the crane lifts; slings hold "
-            f"from {self.from_s:g} s with {self.pretension:.0%} of it, lifted away at {self.lift_s:g} s",
+            f"{pick.masses}, of {', '.join(part.members)}, {used:.0%} of the {mass_text(self.capacity_kg, 1)} that the "
+            f"crane lifts{at_m}; slings hold from {self.from_s:g} s with {self.pretension:.0%} of it, lifted away at "
+            f"{self.lift_s:g} s",
         )
         place = ", ".join(f"{value:.2f}" for value in pick.centre_m)
         forces = ", ".join(f"{force_n / 1e3:.1f}" for force_n in pick.slings_n)
@@ -178,6 +181,9 @@ class Lift(Part):
             yield "", "heavier than the crane lifts: cut it into smaller parts, or choose a larger crane"
         if pick.warning:
             yield "", pick.warning
+        yield from self.facts_of_held(site.structure)
+        for name, shared_kg in site.taken_before(self):
+            yield "look at", f"{mass_text(shared_kg, 1)} of it are in {name} as well: take the boxes apart"
 
     def check_plan(self, plan: Plan) -> None:
         latest_s = plan.time.duration_s - plan.time.step.frame_s
@@ -200,6 +206,14 @@ class Lift(Part):
                     raise ScenarioError(
                         f"lifts.sling_points_m.{number} is {shown(point)}: expected a point below the hook, "
                         f"lifts.hook_m {shown(self.hook_m)}"
+                    )
+        if self.box is not None:
+            middle_m = 0.5 * (self.box.lowest_m[2] + self.box.highest_m[2])
+            for number, (x, y, z) in enumerate(self.sling_points_m or (), start=1):
+                if not self.in_box(np.array([[x, y, middle_m]])).any():
+                    raise ScenarioError(
+                        f"lifts.sling_points_m.{number} is [{x:g}, {y:g}, {z:g}]: expected a point above or in the box "
+                        f"of the part, {self.where}"
                     )
 
 

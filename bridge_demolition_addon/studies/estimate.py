@@ -7,6 +7,7 @@ import numpy as np
 from ..engineering.units import STANDARD_GRAVITY_M_S2
 from ..model.scenario import Scenario
 from ..model.schema import given
+from ..model.stages.design_loads import load_cases
 from ..model.structure.model import Model
 
 FACTOR = 3.0
@@ -21,6 +22,10 @@ _ELASTIC, _WITH_BARS = 4.0, 2.0
 `scripts/bench elastic`, and 1.8 to 2.4 times without bars for a ball on a deck of 100 to 400 shards."""
 
 _PER_RUN_S = 0.5
+
+_PER_PART_AT_REST_S, _PER_PART_AND_SEARCH_S = 2e-3, 9e-3
+"""Time for a shard or a connection in a stage, and in the search of the load at which a bridge with bars comes down: 25
+stages of three spans in 100 and 160 shards, on one core. Without bars a search takes as long as a few stages."""
 
 _PROCESS_MB, _PER_PART_MB = 430.0, 0.03
 """Memory of a process with Blender, and of a shard or connection in it: the I-235 span in 100 shards took 445 MB, and
@@ -41,6 +46,15 @@ def seconds_by_size(scenario: Scenario, model: Model) -> float:
     if is_elastic:  # whose passes end once nothing changes
         iterations = min(iterations, _ITERATIONS)
     return _PER_RUN_S + elastic * bars * _PER_PART_S * substeps * parts * (1.0 + iterations / _ITERATIONS)
+
+
+def seconds_of_stages(scenario: Scenario, model: Model, stages: int) -> tuple[float, float]:
+    """Return about how long so many stages take on one core, without and with load factors, to a factor of `FACTOR`."""
+    parts = len(model.shards) + len(model.connections)
+    at_rest_s = _PER_RUN_S + _PER_PART_AT_REST_S * parts * stages
+    searches = stages + sum(1 for _ in load_cases(scenario, model))
+    search_s = _PER_PART_AND_SEARCH_S if scenario.is_reinforced else _PER_PART_AT_REST_S
+    return at_rest_s, at_rest_s + search_s * parts * searches
 
 
 def megabytes_by_size(model: Model) -> float:

@@ -1,13 +1,14 @@
 """Removals and weakenings: shards that are taken away, and strength that connections lose, in one moment."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
 import numpy as np
 
+from ...engineering.units import mass_text
 from ...texts import Text
-from ..actions import CutBox
+from ..actions import CutBox, Fact, Worksite
 from ..as_built import Structure
 from ..schema import key
 from .change import Change, Event
@@ -39,6 +40,13 @@ class Removal(Change):
         Change._check_together(self)
         if self.members is None and self.lowest_corner_m is None:
             raise self.unexpected("members", "it, or the two corners of a box")
+
+    def facts(self, site: Worksite) -> Iterator[Fact]:
+        structure, gone = site.structure, self.event(site.structure).bodies
+        mass = mass_text(float(structure.masses_kg[gone].sum()), 1)
+        names = ", ".join(sorted(set(structure.member_names[gone].tolist())))
+        yield f"{self.time_s:.3f} s", f"{self.kind}, {self.where}: {mass} of {names}"
+        yield from self.facts_of_held(structure)
 
     def event(self, structure: Structure) -> Event:
         inside = self.of_members(structure) & self.in_box(structure.centres_m)

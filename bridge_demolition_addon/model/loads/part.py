@@ -12,7 +12,7 @@ from ...engineering.geometry.vectors import distance, length
 from ...engineering.units import STANDARD_GRAVITY_M_S2
 from ...errors import ScenarioError
 from ...texts import Text
-from ..actions import PlannedAction, Point, Worksite
+from ..actions import Fact, PlannedAction, Point, Worksite
 from ..as_built import Structure
 from ..schema import key
 
@@ -89,6 +89,13 @@ class Part(PlannedAction):
                 "some that no support holds"
             )
         return bodies
+
+    def facts_of_held(self, structure: Structure) -> Iterator[Fact]:
+        """Yield which members lie in it that supports hold, so that they stay."""
+        held = self.of_members(structure) & self.in_box(structure.centres_m) & structure.held
+        if held.any():
+            names = ", ".join(sorted(set(structure.member_names[held].tolist())))
+            yield "look at", f"{names}: [[supports]] hold what is there, and it stays; what rests on it may not"
 
     def _check_together(self) -> None:
         lowest, highest = self.lowest_corner_m, self.highest_corner_m

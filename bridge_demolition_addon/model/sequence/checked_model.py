@@ -79,6 +79,13 @@ class ModelWorksite:
     def pick_of(self, lift: Lift) -> Pick:
         return self._placed(lift).pick
 
+    def taken_before(self, lift: Lift) -> Iterator[tuple[str, float]]:
+        own = lift.shards(self.structure, 0)
+        for other in self.plan.lifts:
+            shared = np.intersect1d(own, other.shards(self.structure, 0))
+            if other is not lift and other.lift_s <= lift.lift_s and len(shared):
+                yield other.name, float(self.model.masses_kg[shared].sum())
+
     def slings_of(self, lift: Lift) -> Sequence[Sling]:
         return self._placed(lift).slings()
 

@@ -95,11 +95,8 @@ def stages_of(
     most of the time.
     """
     model = bridge.model
-    planned = (change for change in scenario.changes if not change.by_crane)
-    changes, structure = (*planned, *zone_firings(scenario, model.members)), model_structure(model)
     sections = SectionsWithBars(scenario, model)
-    crane = CraneWork(placed_lifts(scenario.lifts, model), model, structure)
-    steps = _steps(scenario, schedule(changes, structure), crane.times())
+    crane, steps = _planned_steps(scenario, model)
     changed, states = ChangedBridge.as_built(model), []
     for time_s, events in steps:  # all of them first: what cannot be is refused before anything is worked out
         before, changed = changed, changed.after(events)
@@ -286,6 +283,19 @@ def reactions_n(model: Model, stage: Stage) -> np.ndarray:
     """Return the sum (3,) of the forces of all supports on the bridge in a stage, N."""
     forces = [support.reaction(stage.standing.loads)[0] for support in supports_of(model)]
     return np.sum(forces, axis=0) if forces else np.zeros(3)
+
+
+def count_of_stages(scenario: Scenario, model: Model) -> int:
+    """Return how many stages a scenario has: one as it was built, and one after each of its steps."""
+    return len(_planned_steps(scenario, model)[1])
+
+
+def _planned_steps(scenario: Scenario, model: Model) -> tuple[CraneWork, list[tuple[float, list[Event]]]]:
+    """Return what cranes do, and the times at which something changes, from 0 on, with the changes."""
+    planned = (change for change in scenario.changes if not change.by_crane)
+    changes, structure = (*planned, *zone_firings(scenario, model.members)), model_structure(model)
+    crane = CraneWork(placed_lifts(scenario.lifts, model), model, structure)
+    return crane, _steps(scenario, schedule(changes, structure), crane.times())
 
 
 def _steps(scenario: Scenario, events: Sequence[Event], lifts_s: set[float]) -> list[tuple[float, list[Event]]]:

@@ -230,7 +230,7 @@ def stage_sentences(stage: Stage, row: Mapping[str, Any]) -> list[str]:
     if stage.most_used:
         by = "" if stage.most_used.governed_by in (RESISTANCE, ALONG_SLAB) else f" by {row['governed_by']}"
         sentences.append(
-            f"used most: {row['largest_utilisation']:.0%} {stage.most_used.words}{by}, in {row['between']} at "
+            f"used most: {row['largest_utilisation']:z.0%} {stage.most_used.words}{by}, in {row['between']} at "
             f"[{row['at_x_m']:.1f}, {row['at_y_m']:.1f}, {row['at_z_m']:.1f}] m"
         )
     if row["cracked"]:

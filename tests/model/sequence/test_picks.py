@@ -10,7 +10,7 @@ from support.stage_folders import with_stages
 from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.lifts import Pick
 from bridge_demolition_addon.model.scenario.file import scenario_from_text
-from bridge_demolition_addon.model.sequence.checked_model import checked_model
+from bridge_demolition_addon.model.sequence.checked_model import ModelWorksite, checked_model
 from bridge_demolition_addon.model.sequence.ending import doubts_of_run
 from bridge_demolition_addon.model.sequence.lifts import model_structure, placed_lifts, volume_kg
 from bridge_demolition_addon.model.stages.lifted import LIFT_COLUMNS
@@ -207,3 +207,41 @@ def test_what_slings_relieve_of_its_bearings_hangs_on_them_and_what_is_not_held_
         if not_held:
             said = " ".join(stage_sentences(sawn, stage_row(2, sawn, bridge)))
             assert np.isnan(sawn.collapse_factor) and "of deck" in said and "times its load" not in said
+
+
+def facts_of(tables):
+    scenario, model = model_with(tables)
+    site = ModelWorksite(scenario, model)
+    return [fact for action in scenario.actions for fact in action.facts(site)]
+
+
+def test_what_a_crane_cannot_lift_is_told_with_its_capacity_and_radius():
+    """4 m x 4 m x 0.5 m of 2.5 t/m³ are 20 t, 6 m and 8 m from the crane."""
+    pick = lift("pick", ["deck"], [4.0, -9.0, 3.0], [8.0, 9.0, 9.0], 16000.0) + "crane_m = [12.0, 8.0]\n"
+    (_, masses), _, (_, heavier) = facts_of(pick)
+    assert "125% of the 16.0 t that the crane lifts at 10.0 m" in masses and "heavier than the crane" in heavier
+
+
+def test_boxes_that_reach_into_supports_or_each_other_are_told():
+    """Of abutments nothing goes, as they are held; 2 m of 4 m x 0.5 m are in both boxes."""
+    both = "".join(
+        lift(name, ["deck"], [low, -9.0, 3.0], [high, 9.0, 9.0]) for name, low, high in (("a", -9, 6), ("b", 4, 12))
+    )
+    assert [text for name, text in facts_of(both) if name == "look at"] == [
+        "10.00 t of it are in b as well: take the boxes apart",
+        "10.00 t of it are in a as well: take the boxes apart",
+    ]
+    box = "lowest_corner_m = [-9.0, -9.0, 0.0]\nhighest_corner_m = [6.0, 9.0, 9.0]\n"
+    (_, gone), (heading, stays) = facts_of(f"[[removals]]\ntime_s = 1.0\n{box}")
+    # Deck and two girders of 6 m
+    mass_kg = DENSITY_KG_M3 * 6.0 * (4.0 * 0.5 + 2 * 0.4 * 0.8)
+    assert gone.endswith(f": {1e-3 * mass_kg:.1f} t of deck, girder 1, girder 2")
+    assert heading == "look at" and stays.startswith("abutment 1: [[supports]] hold what is there, and it stays")
+
+
+def test_slings_beside_their_part_are_refused():
+    pick = lift("pick", ["deck"], [4.0, -9.0, 3.0], [8.0, 9.0, 9.0])
+    with pytest.raises(
+        ScenarioError, match=r"lifts\.sling_points_m\.2 is \[9, 0, 4\.3\]: expected a point above or in the box"
+    ):
+        model_with(pick + "sling_points_m = [[5.0, 0.0, 9.5], [9.0, 0.0, 4.3]]\n")

@@ -208,7 +208,9 @@ def test_what_is_no_lift_is_refused(keys, message):
 
 def test_a_lift_of_nothing_is_refused():
     with pytest.raises(ScenarioError, match="lifts 'middle': no shard that can move is there"):
-        checked_model(beam(lift_text(lowest_corner_m=(4.0, 3.0, 4.0), highest_corner_m=(8.0, 4.0, 6.0))))
+        checked_model(
+            beam(lift_text(sling_points_m=None, lowest_corner_m=(4.0, 3.0, 4.0), highest_corner_m=(8.0, 4.0, 6.0)))
+        )
 
 
 def test_each_lift_has_a_name_of_its_own():
