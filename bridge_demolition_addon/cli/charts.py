@@ -1,13 +1,17 @@
 """``bda charts``: draw the charts to choose charges by, as pictures in a folder."""
 
 import argparse
+import sys
+from contextlib import nullcontext
 from functools import partial
 from pathlib import Path
 
 from ..engineering.blast.pulses import BlastModel
 from ..engineering.blast.wave import Burst
 from ..model.blast.charges import LARGEST_CHARGE_KG
+from ..system.progress import Progress
 from .arguments import add_blast_options, quantity
+from .progress import StepsOfLongWork
 
 
 def add_to(commands: argparse._SubParsersAction) -> None:
@@ -34,7 +38,7 @@ def add_to(commands: argparse._SubParsersAction) -> None:
 def charts(arguments: argparse.Namespace) -> None:
     """Draw the charts and say where they are."""
     # Loading matplotlib takes a second, which the other commands need not wait.
-    from ..charts.blast_design import ChartSettings, write_charts
+    from ..charts.blast_design import CHARTS, ChartSettings, write_charts
 
     settings = ChartSettings(
         model=BlastModel(arguments.model),
@@ -44,6 +48,14 @@ def charts(arguments: argparse.Namespace) -> None:
         pulse_charge_kg=arguments.pulse_kg,
         pier_charge_kg=arguments.pier_kg,
     )
-    for path in write_charts(arguments.output, settings):
-        if not arguments.quiet:
+    with nullcontext(Progress()) if arguments.quiet else StepsOfLongWork(sys.stderr, len(CHARTS)) as progress:
+
+        def drawn(count: int, of: int) -> None:
+            if count < of:
+                progress.stage("draws the charts")
+
+        drawn(0, len(CHARTS))
+        paths = write_charts(arguments.output, settings, drawn)
+    if not arguments.quiet:
+        for path in paths:
             print(path)

@@ -24,7 +24,7 @@ from ..studies.estimate import FACTOR, duration_text, seconds_by_size
 from ..studies.session import EnsembleSession
 from ..system.programs import program_command
 from .ensemble import add_ensemble_options, execute_ensemble, folder_beside, whole_number
-from .progress import CommandProgress, progress_on
+from .progress import CommandProgress, StepsOfLongWork, progress_on
 from .run import run_with_everything
 
 _MOST_LOOKED_AT = 20
@@ -64,11 +64,15 @@ def execute(arguments: argparse.Namespace) -> None:
     if arguments.verify is not None:
         print(_verified(Path(arguments.study), arguments.verify))
         return
-    study = read_study(arguments.study)
     if arguments.check:
-        for line in study_facts(study, arguments.output, arguments.jobs or cores()):
-            print(line)
+        with StepsOfLongWork(sys.stderr, 2) as progress:
+            progress.stage("reads the study, and looks at what each key varies: seconds")
+            study = read_study(arguments.study)
+            progress.stage("draws its first runs, and cuts its bridge to know how long one takes: seconds")
+            for line in study_facts(study, arguments.output, arguments.jobs or cores()):
+                print(line)
         return
+    study = read_study(arguments.study)
     arguments.output = arguments.output or folder_beside(arguments.study, study.kind)
     execute_ensemble(study, arguments, partial(study_sentences, study), _make_pictures)
 
