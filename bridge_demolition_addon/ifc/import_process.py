@@ -166,7 +166,8 @@ class _Attempt:
                 progress.part(*part)
             elif "stage" in answer:
                 self.element, part = None, None
-                progress.stage(answer["stage"])
+                if answer["stage"]:
+                    progress.stage(answer["stage"])
             else:
                 return answer
 

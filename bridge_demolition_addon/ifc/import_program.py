@@ -48,13 +48,11 @@ def _imported(request: Mapping[str, Any], say: Say) -> dict[str, Any]:
     """Import a bridge into a folder, and return what is said of it."""
     kept = KeptShapes(Path(request["kept"]), {int(number): why for number, why in request["failed"].items()})
 
-    stages: list[str] = []
+    names = iter(["putting the members together"])
 
     def begins(done: int, total: int, element: Element | None) -> None:
-        if element is None:
-            if not stages:  # bodies that take other ways are begun by themselves
-                stages.append("putting the members together")
-                say({"stage": stages[-1]})
+        if element is None:  # what follows is no element's fault; bodies that take other ways are begun by themselves
+            say({"stage": next(names, None)})
             return
         say({"element": element.entity.id(), "title": element.title, "part": done, "of": total})
 

@@ -5,14 +5,17 @@ The crash is that of a file of PGSuper, whose railing ends any process that work
 stands for the library and does the same.
 """
 
+import json
 import os
+import subprocess
 
 import pytest
 from support.ifc_bridges import CONCRETE_KG_M3, MASS_KG, STEEL_KG_M3, VOLUMES_M3, whole_bridge
 
 from bridge_demolition_addon.errors import IfcError, OutputError
-from bridge_demolition_addon.ifc.import_process import import_bridge
+from bridge_demolition_addon.ifc.import_process import MARK, import_bridge
 from bridge_demolition_addon.ifc.settings import ImportSettings
+from bridge_demolition_addon.system.programs import program_command
 from bridge_demolition_addon.system.progress import Progress
 
 CRASHING = """
@@ -57,6 +60,19 @@ class Titles(Progress):
 
     def part(self, done, total, text):
         self.parts.append((done, total, text))
+
+
+def test_no_element_pays_for_what_is_done_with_all_of_them(path, tmp_path):
+    """Each has a time of its own; members are put together after the last, which is left out for nothing of that."""
+    settings = ImportSettings(shards=20).as_json()
+    request = {"path": str(path), "settings": settings, "is_listing": False, "folder": str(tmp_path / "made")}
+    request |= {"kept": str(tmp_path), "failed": {}}
+    command = program_command("ifc.import_program", with_libraries=True)
+    done = subprocess.run(command, input=json.dumps(request) + "\n", capture_output=True, text=True, check=True)
+    said = [json.loads(line.removeprefix(MARK)) for line in done.stdout.splitlines() if line.startswith(MARK)]
+    last = max(row for row, message in enumerate(said) if "element" in message)
+    assert [set(message) for message in said[last + 1 :]] == [{"stage"}, {"stage"}, {"done"}]
+    assert [message["stage"] for message in said[last + 1 : -1]] == [None, "writing the scenario"]
 
 
 @pytest.mark.long
