@@ -128,9 +128,9 @@ class StudyRuns(ReportedEnsemble):
         if self.conclusions is None or not math.isfinite(self.conclusions.reach.limit_m):
             return {}
         reach = self.conclusions.reach
-        distances_m = {Text("limit"): reach.limit_m, Text("distance to keep"): reach.to_keep_m(self.buffer_m)}
-        if distances_m["distance to keep"] == reach.limit_m:
-            del distances_m["distance to keep"]
+        distances_m, kept_m = {Text("limit"): reach.limit_m}, reach.to_keep_m(self.buffer_m)
+        if kept_m > reach.limit_m:
+            distances_m[Text("distance to keep")] = kept_m
         return {name: (around_m, widened_around(self.bridge, around_m)) for name, around_m in distances_m.items()}
 
     @property
