@@ -147,7 +147,7 @@ class Cases:
         chosen = self.among(self.count(4), len(cracks))
         term = term_in_substep(cracks, chosen, *places)
         moving = self.numbers(bodies), self.numbers(3, 3, bodies), self.numbers(6, bodies)
-        ExpectedCracks.of(term, Places.of(*places), *moving, 0.01)
+        ExpectedCracks.of(term, bodies).find(Places.of(*places), *moving, 0.01)
 
     def of_springs(self):
         bodies, count = self.count(6), self.count(9)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -29,10 +30,16 @@ _ANSWERS = {
 _TYPES = frozenset(np.dtype(kind).str for kind in (np.float64, np.int64, np.uint64, np.bool_))
 
 
+_KNOWN: dict[str, Callable[..., Any]] = {}
+"""Functions that were called before, by their names."""
+
+
 def answer_of(name: str, *arguments: Struct | np.ndarray | float) -> int:
     """Call a function with structs, arrays, counts and numbers, and return its answer."""
-    kinds, given = zip(*map(_given, arguments), strict=True)
-    answer: int = function(name, *kinds)(*given)
+    given = [_given(argument) for argument in arguments]
+    if name not in _KNOWN:
+        _KNOWN[name] = function(name, *map(_kind, arguments))
+    answer: int = _KNOWN[name](*given)
     return answer
 
 
@@ -63,12 +70,17 @@ def not_finite(quantity: int, row: int) -> NotFiniteError:
     return NotFiniteError(_OF_CONNECTIONS[quantity - len(_OF_BODIES)], row, of_connection=True)
 
 
-def _given(argument: Struct | np.ndarray | float) -> tuple[Any, int | float]:
-    """Return the type of C of an argument, and what C gets: the address of what is more than a number."""
+def _given(argument: Struct | np.ndarray | float) -> int | float:
+    """Return what C gets of an argument: the address of what is more than a number."""
     if isinstance(argument, np.ndarray):
         if argument.dtype.str not in _TYPES or not argument.flags.c_contiguous:
             raise ValueError(f"the core gets no numbers of type {argument.dtype}, nor any out of order")
-        return ctypes.c_void_p, address_of(argument)
-    if isinstance(argument, Struct):
-        return ctypes.c_void_p, ctypes.addressof(argument)
-    return ctypes.c_double if isinstance(argument, float) else ctypes.c_int64, argument
+        return address_of(argument)
+    return ctypes.addressof(argument) if isinstance(argument, Struct) else argument
+
+
+def _kind(argument: Struct | np.ndarray | float) -> type[ctypes.c_void_p | ctypes.c_double | ctypes.c_int64]:
+    """Return the type of C of an argument."""
+    if isinstance(argument, Struct | np.ndarray):
+        return ctypes.c_void_p
+    return ctypes.c_double if isinstance(argument, float) else ctypes.c_int64

@@ -289,34 +289,38 @@ class ExpectedCracks(Struct):
     )
 
     @classmethod
-    def of(
-        cls,
-        cracks: Term,
+    def of(cls, cracks: Term, bodies: int) -> ExpectedCracks:
+        """Return those of a term, between some of so many bodies, before they are found."""
+        count = len(cracks.rows)
+        made = cls(bodies=bodies)
+        made.cracks = cracks
+        made.first, made.second = ((np.empty((3, 3, count)), np.empty((3, count))) for _ in range(2))
+        made.rows = np.empty((6, count)), np.empty((6, count))
+        return made.take(
+            first_axes=(made.first[0], 9 * count),
+            first_points=(made.first[1], 3 * count),
+            second_axes=(made.second[0], 9 * count),
+            second_points=(made.second[1], 3 * count),
+            softness=(made.rows[0], 6 * count),
+            deformations=(made.rows[1], 6 * count),
+        )
+
+    def find(
+        self,
         places: Places,
         inverse_masses: FloatArray,
         inverse_inertias: FloatArray,
         velocities: FloatArray,
         substep_s: float,
-    ) -> ExpectedCracks:
-        """Return them for bodies with inverse masses (n,), inverse inertias (3, 3, n) and velocities (6, n)."""
-        count, bodies = len(cracks.rows), len(inverse_masses)
-        found = cls(bodies=bodies, substep_s=substep_s)
-        found.first, found.second = ((np.empty((3, 3, count)), np.empty((3, count))) for _ in range(2))
-        found.rows = np.empty((6, count)), np.empty((6, count))
-        for name, array, size in (
-            ("inverse_masses", inverse_masses, bodies),
-            ("inverse_inertias", inverse_inertias, 9 * bodies),
-            ("velocities", velocities, 6 * bodies),
-            ("first_axes", found.first[0], 9 * count),
-            ("first_points", found.first[1], 3 * count),
-            ("second_axes", found.second[0], 9 * count),
-            ("second_points", found.second[1], 3 * count),
-            ("softness", found.rows[0], 6 * count),
-            ("deformations", found.rows[1], 6 * count),
-        ):
-            found.point(name, np.ascontiguousarray(array), size)
-        call("bda_expect_cracks", cracks, places, found)
-        return found
+    ) -> None:
+        """Find them for bodies with inverse masses (n,), inverse inertias (3, 3, n) and velocities (6, n)."""
+        self.substep_s = substep_s
+        self.take(
+            inverse_masses=(inverse_masses, self.bodies),
+            inverse_inertias=(inverse_inertias, 9 * self.bodies),
+            velocities=(velocities, 6 * self.bodies),
+        )
+        call("bda_expect_cracks", self.cracks, places, self)
 
 
 class CoreCracks(Struct):

@@ -177,6 +177,7 @@ class ElasticConnections:
         self._is_first = is_first
         self._inventory = inventory
         self._cracks: Cracks | None = None
+        self._expected: ExpectedCracks | None = None
         self.bare_bars = StandingBarsOfZones(self._reader, motion, self._masses, len(self._frames))
         self._built = motion
         self._substep_s, self._left = 0.0, np.ones_like(self._left_per_second)
@@ -260,7 +261,7 @@ class ElasticConnections:
         if len(gone):
             self._world.constraints.break_rows(gone)
         for lifting in self._lifting:
-            lifting.follow(self._rows, self._softness, self._world.constraints.intact())
+            lifting.follow(self._rows, self._softness, self._world.constraints.intact)
         self._start = StepInput(motion.position_components_m, motion.rotation_components, velocities, motion.asleep)
 
     def predict(self) -> np.ndarray:
@@ -287,7 +288,10 @@ class ElasticConnections:
             return
         places = Places.of(motion.position_components_m, motion.rotation_components)
         inertia = motion.inverse_masses, motion.inverse_inertia_components
-        expected = ExpectedCracks.of(step.crack_term, places, *inertia, step.velocities, self._substep_s)
+        expected = self._expected
+        if expected is None or expected.cracks is not step.crack_term:
+            self._expected = expected = ExpectedCracks.of(step.crack_term, len(inertia[0]))
+        expected.find(places, *inertia, step.velocities, self._substep_s)
         self._rows.resist_as(expected, step.cracks, self._world.constraints.exists)
 
     def energy(self, intact: np.ndarray, positions_m: np.ndarray, rotations: np.ndarray) -> ElasticEnergy:

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from ...bullet.constraint_rows import ConstraintRows
 from ...engineering.elasticity.bearings import Bearings
 from ...engineering.foundations import Footings
+
+_NONE = np.zeros(0, int)
 
 
 class LiftingConstraints:
@@ -19,10 +23,11 @@ class LiftingConstraints:
         """Take all of them for touching, as constraints are made."""
         self._touching[:] = 1.0
 
-    def follow(self, constraints: ConstraintRows, softness: np.ndarray, intact: np.ndarray) -> None:
+    def follow(self, constraints: ConstraintRows, softness: np.ndarray, intact: Callable[[], np.ndarray]) -> None:
         """Soften constraints (m,) that are intact, of which all (6, m) have a softness where they touch all over."""
         touching, rows = self._law.touching, self._law.rows
-        changed = np.flatnonzero((touching != self._touching) & intact[rows])
+        is_other = touching != self._touching
+        changed = np.flatnonzero(is_other & intact()[rows]) if is_other.any() else _NONE
         if not len(changed):
             return
         share = touching[changed]

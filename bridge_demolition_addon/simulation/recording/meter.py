@@ -61,7 +61,7 @@ class Meter:
         """
         snapshot = self._snapshots.take(contacts=contacts)
         if self._elastic:
-            snapshot = replace(snapshot, load_components=snapshot.load_components + self._elastic.loads)
+            np.add(snapshot.load_components, self._elastic.loads, out=snapshot.load_components)
         return Reading(snapshot, substep_s, end_s)
 
     def predicted(self, loads: np.ndarray, substep_s: float, begin_s: float) -> Reading:

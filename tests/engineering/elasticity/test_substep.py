@@ -194,7 +194,8 @@ def test_rows_of_bullet_resist_as_cracks_do(seed):
     shapes = rng.normal(size=(3, 3, BODIES))
     masses, inertias = rng.uniform(1e-4, 1e-3, BODIES), 1e-4 * np.einsum("ikn,jkn->ijn", shapes, shapes)
     places = Places.of(structure.positions, structure.rotations)
-    found = ExpectedCracks.of(step.crack_term, places, masses, inertias, step.velocities, SUBSTEP_S)
+    found = ExpectedCracks.of(step.crack_term, BODIES)
+    found.find(places, masses, inertias, step.velocities, SUBSTEP_S)
     arrays, count = step.crack_term.arrays, len(step.cracks)
     by_corner = {
         name: values.reshape(*values.shape[:-1], 4, count)
