@@ -13,7 +13,7 @@ import numpy as np
 from support.core_terms import forces_and_tangents, term_in_substep, term_of_law
 
 from bridge_demolition_addon.bullet.body_motion import BodyMotionReader, BulletBodies
-from bridge_demolition_addon.bullet.constraint_rows import BulletRows
+from bridge_demolition_addon.bullet.constraint_rows import BulletRows, Softness
 from bridge_demolition_addon.bullet.constraints import BulletConnections
 from bridge_demolition_addon.bullet.contacts import BulletContacts
 from bridge_demolition_addon.bullet.layout import SYSTEM_V
@@ -405,6 +405,9 @@ class Cases:
         rows, chosen = BulletRows.of(SYSTEM_V.spring, addresses, held, held), self.among(self.count(5), count)
         call("bda_expect", rows, len(chosen), chosen, np.zeros((6, len(chosen))), np.ones(6))
         call("bda_soften", rows, len(chosen), chosen, 1.0, np.zeros((6, len(chosen))), 0)
+        expected = ExpectedCracks.of(Term.of_cracks(chosen, chosen, np.zeros((12, 0)), 0.1, 0.1), count)
+        softness = Softness(softest=0.5, free_from=2.0, flags=1, frame_a=80, frame_b=240)
+        call("bda_put_cracks", rows, expected, softness, len(chosen), chosen, exists)
         call("bda_put_frames", rows, 80, len(chosen), chosen, np.zeros((9, len(chosen))), np.zeros((3, len(chosen))))
         whole = memory.view(np.int64)
         lists = SYSTEM_V.dispatcher

@@ -217,8 +217,6 @@ class Cages:
         """Return what some groups (k,) do, as long as there are the same; `begin` comes before each sub-step."""
         groups, count = self._groups, len(chosen)
         law: dict[str, FloatArray | BoolArray] = {
-            name: np.zeros(count) for name in ("lengths", "stays", "pulled_limits", "pressed_limits")
-        } | {
             "yields": (groups.counts * yield_force_n(groups.diameters_m, groups.yields_pa))[chosen],
             "stiffness": groups.stiffness_n_m[chosen],
             "directions": np.zeros((3, count)),

@@ -197,6 +197,8 @@ class SpringsOfConnections:
     def __init__(self, rows: IntArray, positions: SpringPositions, law: PressedSprings):
         self.rows, self._positions, self._law = rows, positions, law
         count = len(positions.of)
+        if law.sideways_n_m.shape != (2, count):
+            raise ValueError(f"stiffness sideways has shape {law.sideways_n_m.shape}: expected (2, {count})")
         self._free = np.zeros((3, count))  # gaps at which springs resist nothing
         self.touching, self.remembered = np.ones(len(rows)), np.full((12, count), np.nan)
         self._springs_in_core: Springs | None = None
