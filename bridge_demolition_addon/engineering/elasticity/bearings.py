@@ -107,7 +107,7 @@ class PadSprings:
         return PadSprings(**{name: np.concatenate(pair) for name, pair in columns.items()})
 
 
-class Pads(Struct):
+class CorePads(Struct):
     """Bearings as the core takes them: `bda_pads` in `core/src/springs.h`."""
 
     _fields_ = (
@@ -153,7 +153,7 @@ class Bearings(SpringsOfConnections):
         )
         super().__init__(springs.rows, positions, law)
         self._pressed_n = np.full(len(of), np.nan)  # pressing forces as they were solved last
-        self._pads: Pads | None = None
+        self._pads: CorePads | None = None
 
     def __getstate__(self) -> dict[str, object]:
         """Return what a copy has."""
@@ -240,10 +240,10 @@ class Bearings(SpringsOfConnections):
     def _solved(self, which: IntArray, forces_n: FloatArray) -> None:
         self._pressed_n[which] = np.maximum(forces_n, 0.0)
 
-    def _pads_in_core(self) -> Pads:
+    def _pads_in_core(self) -> CorePads:
         if self._pads is None:
             springs, count, bearings = self._springs, len(self.rows), int(self._springs.bearings.max(initial=-1)) + 1
-            self._pads = Pads(
+            self._pads = CorePads(
                 bearings=bearings,
                 lifted=_LIFTED_M,
                 least_cosines=3.0 - _LARGEST_TURN * _LARGEST_TURN,

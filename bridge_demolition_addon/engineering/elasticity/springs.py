@@ -171,7 +171,7 @@ class SpringPositions:
         )
 
 
-class Springs(Struct):
+class CoreSprings(Struct):
     """Springs with what has become of them by now: `bda_springs`."""
 
     _fields_ = (
@@ -201,7 +201,7 @@ class SpringsOfConnections:
             raise ValueError(f"stiffness sideways has shape {law.sideways_n_m.shape}: expected (2, {count})")
         self._free = np.zeros((3, count))  # gaps at which springs resist nothing
         self.touching, self.remembered = np.ones(len(rows)), np.full((12, count), np.nan)
-        self._springs_in_core: Springs | None = None
+        self._springs_in_core: CoreSprings | None = None
 
     def __getstate__(self) -> dict[str, object]:
         """Return what a copy has: where its arrays are in memory is its own."""
@@ -246,10 +246,10 @@ class SpringsOfConnections:
     def _solved(self, which: IntArray, forces_n: FloatArray) -> None:
         """Take over the upward forces (q,) of some springs (q,) in a sub-step."""
 
-    def _in_core(self) -> Springs:
+    def _in_core(self) -> CoreSprings:
         if self._springs_in_core is None:
             at, law, count = self._positions.core, self._law.core, len(self._positions.of)
-            self._springs_in_core = Springs(
+            self._springs_in_core = CoreSprings(
                 at=ctypes.addressof(at), law=ctypes.addressof(law), connections=len(self.rows)
             ).take(
                 of=(self._positions.of, count),
