@@ -10,6 +10,7 @@ import numpy as np
 
 from bridge_demolition_addon.charts.ground_motion import ground_motion_history, response_spectra
 from bridge_demolition_addon.charts.style import blank_figure, line_style
+from bridge_demolition_addon.engineering.core.calls import call
 from bridge_demolition_addon.engineering.foundations import Footings, SoilSprings
 from bridge_demolition_addon.model.ground_motion.settings import DesignSpectrum, GroundMotion
 from bridge_demolition_addon.model.ground_motion.sources import ground_record
@@ -19,9 +20,6 @@ PICTURES = Path(__file__).resolve().parents[2] / "docs" / "pictures"
 WIDTH_M, SIDES = 2.0, 40
 STIFFNESS_N_M3, CAPACITY_PA = 44.8e6, 1120e3
 LOAD_N = 8e5
-
-AT_REST = np.zeros((6, 2))
-SUBSTEP_S = 0.01
 
 
 def footings(capacity_pa: float) -> Footings:
@@ -54,7 +52,12 @@ def borne(bed: Footings, settled_m: float, turn_rad: float = 0.0) -> np.ndarray:
     rotation = both(np.array([[cosine, 0.0, sine], [0.0, 1.0, 0.0], [-sine, 0.0, cosine]]))
     positions = np.array([[0.0, 0.0, -settled_m], [0.0, 0.0, 0.0]]).T
     bed.update_plastic_state(positions, rotation)
-    return bed.in_substep(np.zeros(1, int), positions, rotation, SUBSTEP_S).loads(AT_REST)[0][:, 0] / SUBSTEP_S
+    springs = bed.term(np.zeros(1, int))
+    bed.begin(springs, positions, rotation)
+    forces = np.zeros((3, SIDES * SIDES))
+    call("bda_try_term", springs, np.zeros_like(forces), forces)
+    moments = np.cross(springs.arrays["second_arms"], forces, axis=0)
+    return -np.concatenate((forces, moments)).sum(axis=1)  # resisted, on the body
 
 
 def moment(bed: Footings, turn_rad: float) -> float:
