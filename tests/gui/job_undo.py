@@ -27,7 +27,14 @@ def steps(person: Person) -> Steps:
     yield from person.click("bda.unregister_handler")
     yield 2.0
     yield from person.picture("undone_and_unregistered")
-    reports = ("30 shards", "Recording to", "undo, redo", "still move at the end", "Results are in")
+    reports = (
+        "30 shards",
+        "Recording to",
+        "undo, redo",
+        "what follows is no outcome",
+        "still move at the end",
+        "Results are in",
+    )
     person.expect_reports("undo ends the recording with a warning", *reports)
     person.expect("what was recorded is kept", (person.folder / "undone" / "summary.json").exists())
     person.expect("no recording runs after undo", recording_runs(), False)

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import logging
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, MutableMapping
+from typing import Any
 
 import bpy
 
@@ -60,7 +61,7 @@ def read_earlier_keys(*_arguments: object) -> None:
 
 def _move_renamed(group: bpy.types.PropertyGroup, table_class: type[Table]) -> None:
     """Give the keys of a table, and of the tables in it, values that a file has under their earlier names."""
-    kept = group.bl_system_properties_get() or {}
+    kept = _as_saved(group)
     keys = {item.name: item for item in shown_keys(table_class)}
     for earlier, name in EARLIER_NAMES.items():
         if name not in keys:
@@ -75,6 +76,11 @@ def _move_renamed(group: bpy.types.PropertyGroup, table_class: type[Table]) -> N
         inner = getattr(group, item.name)
         for one in inner if holds_many(item) else (inner,):
             _move_renamed(one, subtable_class(item))
+
+
+def _as_saved(group: bpy.types.PropertyGroup) -> MutableMapping[str, Any]:
+    """Return the values of a group as a file has them; before Blender 5.0 they are its custom properties."""
+    return (group.bl_system_properties_get() or {}) if hasattr(group, "bl_system_properties_get") else group
 
 
 def _is_set(group: bpy.types.PropertyGroup, table_class: type[Table]) -> bool:
