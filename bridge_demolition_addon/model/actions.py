@@ -7,6 +7,7 @@ and what of them a scene keeps for a run. A kind of action is a subclass in one 
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, Protocol, Self
@@ -187,9 +188,9 @@ class PlannedAction(Table):
         """Return the key of what a machine holds, which would not move with a ground that shakes; None without one."""
         return None
 
+    @abstractmethod
     def begins_s(self, plan: Plan) -> float:
         """Return from when on it acts on the bridge, s; infinite where it never does."""
-        raise NotImplementedError
 
     def ends_s(self, plan: Plan) -> float:
         """Return when it is over, s; infinite where it never acts."""

@@ -6,6 +6,7 @@ messages (`expected`), the reference of all keys and the sidebar follow from thi
 
 import json
 import sys
+from abc import ABCMeta
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import MISSING, Field, dataclass, field, fields, replace
 from functools import cache
@@ -141,7 +142,7 @@ def key(description: str, *, default: Any = MISSING, **limits: Any) -> Any:
     return field(default=default, metadata={"key": Key(description=description, **limits)})
 
 
-class _TableType(type):
+class _TableType(ABCMeta):
     """Makes a table as it is written, and returns it resolved: with its values as they are kept, and what follows."""
 
     def __call__(cls, *args: Any, **values: Any) -> Any:

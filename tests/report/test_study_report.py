@@ -14,6 +14,7 @@ from bridge_demolition_addon.engineering.geometry.plan_areas import outlines
 from bridge_demolition_addon.model.study.shown_names import shown
 from bridge_demolition_addon.report.ensemble.influence import correlation_table
 from bridge_demolition_addon.report.ensemble.plan import layers
+from bridge_demolition_addon.report.ensemble.study import study_summary
 
 
 @pytest.fixture(scope="module")
@@ -63,6 +64,24 @@ def test_runs_that_did_not_finish_are_named_and_count():
 
 def test_runs_that_still_moved_are_counted(told):
     assert any(text.startswith("In 3 of 93 runs not everything had rested for 1 s when") for text in told.notices)
+
+
+@pytest.mark.parametrize("runout_factor, buffer_m", [(1.82, 5.0), (1.82, None), (1.0, 5.0), (1.0, None)])
+def test_the_first_page_says_what_the_distance_to_keep_is_made_of(runout_factor, buffer_m):
+    exclusion = replace(TOLD_SCENARIO.exclusion, buffer_m=buffer_m or 0.0, cordon_m=1.0)
+    runs = told_runs(told_study(scenario=replace(TOLD_SCENARIO, exclusion=exclusion), runout_factor=runout_factor))
+    summary = dict(study_summary(runs)[-1].rows)
+    limit_m = np.sort(runs.distances_m)[-2]
+    in_all = runout_factor * limit_m + (buffer_m or 0.0)
+    words = [f"{np.ceil(10.0 * limit_m) / 10.0:.1f} m around the bridge's plan"]
+    added = [f"the factor of {runout_factor:g} for runout"] * (runout_factor > 1.0)
+    added += [f"the buffer of {buffer_m} m"] * bool(buffer_m)
+    if added:
+        words.append(f"{np.ceil(10.0 * in_all) / 10.0:.1f} m with {' and '.join(added)}".replace("5.0 m", "5 m"))
+    lacking = "" if buffer_m else "; a buffer has to be added"
+    assert summary["Limit"] == f"{', '.join(words)}{lacking}"
+    # A cordon of 1 m is shorter than what is to keep from debris.
+    assert f"{np.ceil(in_all):.0f} m to keep from debris by this study" in summary["Cordon"]
 
 
 def test_areas_are_those_that_geometry_gives(runs, told):

@@ -1,5 +1,6 @@
 """Changes: what is done to the structure in one moment, as an event on bodies and connections."""
 
+from abc import abstractmethod
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar
@@ -88,9 +89,9 @@ class Change(Part):
         """Return what a run says of it beside time, kind, shards and connections, ready for JSON."""
         return {}
 
+    @abstractmethod
     def event(self, structure: Structure) -> Event:
         """Return it as rows of a structure; refuse one that concerns nothing."""
-        raise NotImplementedError
 
     def _connections(self, structure: Structure) -> np.ndarray:
         """Return whether each connection (m,) has a shard of the members and is in the box."""

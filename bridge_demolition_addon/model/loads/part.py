@@ -1,6 +1,7 @@
 """Parts: actions on a part of the bridge, and those of them that act on its bodies by forces."""
 
 import json
+from abc import abstractmethod
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import ClassVar, Generic, Self, TypeVar
@@ -133,9 +134,9 @@ class Acting(Part):
 
     table: ClassVar[str] = "acting"
 
+    @abstractmethod
     def placed(self, structure: Structure, number: int) -> PlacedLoad[Self]:
         """Return its forces on bodies, by its number in its list; refuse what acts on nothing."""
-        raise NotImplementedError
 
     def shards(self, structure: Structure, number: int) -> np.ndarray:
         return np.unique(self.placed(structure, number).bodies)
@@ -149,13 +150,13 @@ class SizedLoad(Acting):
     kept_in: ClassVar[str] = "loads"
 
     @property
+    @abstractmethod
     def course(self) -> np.ndarray:
         """All numbers (k,) that its size and its directions follow from."""
-        raise NotImplementedError
 
+    @abstractmethod
     def mean_size(self, start_s: float, step_s: float) -> float:
         """Return its mean size in a sub-step that begins at a time."""
-        raise NotImplementedError
 
     def called(self, number: int) -> str:
         """Return its name, by its number in its list."""

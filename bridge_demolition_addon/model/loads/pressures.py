@@ -2,7 +2,7 @@
 
 import math
 from bisect import bisect_right
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import ClassVar, Self
@@ -51,6 +51,14 @@ def _pressures() -> tuple[float, ...]:
     )
 
 
+def _begins_s(times_s: Sequence[float], pressures_kpa: Sequence[float]) -> float:
+    """When a pressure begins; infinite where there is none."""
+    for (time_s, kpa), (_, next_kpa) in pairwise([*zip(times_s, pressures_kpa, strict=True), (0.0, 0.0)]):
+        if kpa or next_kpa:
+            return time_s
+    return math.inf
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Pressure(Part):
     """A pressure that changes with time, such as that of wind, of water or of a hydraulic jack: on the faces of shards
@@ -84,10 +92,7 @@ class Pressure(Part):
         return max(self.pressures_kpa, key=abs)
 
     def begins_s(self, plan: Plan) -> float:
-        for (time_s, kpa), (_, next_kpa) in pairwise([*zip(self.times_s, self.pressures_kpa, strict=True), (0.0, 0.0)]):
-            if kpa or next_kpa:
-                return time_s
-        return math.inf
+        return _begins_s(self.times_s, self.pressures_kpa)
 
     def ends_s(self, plan: Plan) -> float:
         return self.times_s[-1]
@@ -191,6 +196,9 @@ class PressedFaces(SizedLoad):
     areas_m2: tuple[float, ...] = key("Area of each face.", unit="m²", above=0)
     times_s: tuple[float, ...] = _times()
     pressures_kpa: tuple[float, ...] = _pressures()
+
+    def begins_s(self, plan: Plan) -> float:
+        return _begins_s(self.times_s, self.pressures_kpa)
 
     @property
     def course(self) -> np.ndarray:

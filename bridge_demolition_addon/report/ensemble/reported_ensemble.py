@@ -134,9 +134,9 @@ class StudyRuns(ReportedEnsemble):
         return {name: (around_m, widened_around(self.bridge, around_m)) for name, around_m in distances_m.items()}
 
     @property
-    def limit(self) -> CrossSection | None:
-        """The bridge's plan with the limit around it; None without one."""
-        return self.limits["limit"][1] if self.limits else None
+    def to_keep(self) -> tuple[float, CrossSection] | None:
+        """The largest of the limits: how far it is from the bridge, m, and its area; None where there is none."""
+        return max(self.limits.values(), key=lambda limit: limit[0], default=None)
 
     @property
     def hull_corners(self) -> int:

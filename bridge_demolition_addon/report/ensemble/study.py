@@ -28,7 +28,7 @@ from ..single_pages import single_pages
 from ..site_plan import write_areas
 from ..wording.numbers import listed, ordinal, percent, percent_down
 from ..wording.study import input_names, study_sentences
-from ..wording.verdict import Flyrock, clearance_rows, flyrock_of_runs, study_verdict
+from ..wording.verdict import Flyrock, clearance_rows, flyrock_of_runs, study_verdict, with_what_is_added
 from .document import doubts_of, ensemble_document, statement_section, unfinished_sentence
 from .influence import correlation_table
 from .plan import fragments_section, layers, neighbours_section, plan_picture, plan_section
@@ -56,19 +56,20 @@ def _plan(runs: StudyRuns, flyrock: Flyrock | str | None) -> Iterator[tuple[str,
     yield Text("Limit"), _limit_text(runs)
     if conclusions and conclusions.fragments:
         flyrock = flyrock_of_runs(conclusions.fragments)
-    limit = (next(iter(runs.limits.values()))[0], "{} that debris stays within by this study") if runs.limits else None
-    yield from clearance_rows(scenario, flyrock, limit)
+    debris = None
+    if runs.to_keep is not None:
+        debris = float(rounded_up(runs.to_keep[0], "1")), "{} to keep from debris by this study"
+    yield from clearance_rows(scenario, flyrock, debris)
     yield Text("Rests on"), _basis_text(runs)
 
 
 def _limit_text(runs: StudyRuns) -> str:
-    if not runs.limits:
+    if runs.conclusions is None or not runs.limits:
         return Text("none yet")
-    limits = [distance_to_keep(rounded_up(far_m, "0.1")) for far_m, _ in runs.limits.values()]
-    around = Text("{} around the bridge's plan", limits[0])
-    if len(limits) > 1:
-        return Text("{}, {} with the buffer of {}", around, limits[1], distance_to_keep(runs.buffer_m or 0.0, "g"))
-    return Text("{}; a buffer has to be added", around)
+    reach = runs.conclusions.reach
+    around = Text("{} around the bridge's plan", distance_to_keep(rounded_up(reach.limit_m, "0.1")))
+    around = with_what_is_added(around, reach, runs.buffer_m)
+    return around if runs.buffer_m else Text("{}; a buffer has to be added", around)
 
 
 def _basis_text(runs: StudyRuns) -> str:

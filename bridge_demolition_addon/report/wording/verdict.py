@@ -57,6 +57,17 @@ def run_limit(distance_m: float, note: str = "") -> str:
     return Text("{} in this one run; {}", debris, NO_LIMIT_OF_ONE_RUN)
 
 
+def with_what_is_added(around: Text, limit: DebrisLimit, buffer_m: float | None) -> Text:
+    """Return a text of a limit with the distance to keep, by the factor for runout and a buffer where there are any."""
+    in_all, factor = distance_to_keep(rounded_up(limit.to_keep_m(buffer_m), "0.1")), f"{limit.runout_factor:g}"
+    buffer = distance_to_keep(buffer_m or 0.0, "g")
+    if limit.runout_factor == 1.0:
+        return Text("{}, {} with the buffer of {}", around, in_all, buffer) if buffer_m else around
+    if not buffer_m:
+        return Text("{}, {} with the factor of {} for runout", around, in_all, factor)
+    return Text("{}, {} with the factor of {} for runout and the buffer of {}", around, in_all, factor, buffer)
+
+
 def study_verdict(limit: DebrisLimit, buffer_m: float | None, *, is_final: bool = True) -> str:
     """Return what a study says to plan with, or that it says nothing yet."""
     if not limit.has_enough_runs:
@@ -64,14 +75,7 @@ def study_verdict(limit: DebrisLimit, buffer_m: float | None, *, is_final: bool 
     if not limit.is_known:
         return Text("These runs set no limit, as {} of {} did not finish.", limit.unfinished, limit.runs)
     around = Text("Debris stays within {} of the bridge's plan", distance_to_keep(rounded_up(limit.limit_m, "0.1")))
-    in_all, factor = distance_to_keep(rounded_up(limit.to_keep_m(buffer_m), "0.1")), f"{limit.runout_factor:g}"
-    if buffer_m and limit.runout_factor > 1.0:
-        buffer = distance_to_keep(buffer_m, "g")
-        around = Text("{}, {} with the factor of {} for runout and the buffer of {}", around, in_all, factor, buffer)
-    elif buffer_m:
-        around = Text("{}, {} with the buffer of {}", around, in_all, distance_to_keep(buffer_m, "g"))
-    elif limit.runout_factor > 1.0:
-        around = Text("{}, {} with the factor of {} for runout", around, in_all, factor)
+    around = with_what_is_added(around, limit, buffer_m)
     parts = around, percent(limit.quantile), limit.runs, percent(limit.confidence)
     if is_final:
         return Text("{}, in at least {} of runs like these {}, with {} confidence.", *parts)

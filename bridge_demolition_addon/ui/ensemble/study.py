@@ -42,7 +42,7 @@ class ShownStudy:
     triangles
         Cells that runs hit: corners (3 k, 3), m, and their colours (3 k, 4).
     limit_lines
-        Lines (2 k, 3) around the area of the limit, m; none where there is no limit yet.
+        Lines (2 k, 3) around the area of the distance to keep, m; none where there is no limit yet.
     """
 
     runs: StudyRuns
@@ -57,7 +57,7 @@ class ShownStudy:
         if runs.conclusions:
             sentences = tuple(study_sentences(runs.ensemble, runs.conclusions))
         triangles = map_triangles(runs.map) if runs.map else (np.zeros((0, 3)), np.zeros((0, 4)))
-        return cls(runs, sentences, triangles, outline_lines(runs.limit or CrossSection()))
+        return cls(runs, sentences, triangles, outline_lines(runs.to_keep[1] if runs.to_keep else CrossSection()))
 
     @classmethod
     def of_session(cls, session: EnsembleSession) -> ShownStudy:
