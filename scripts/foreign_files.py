@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Import files of other programs, run what they give, and write docs/foreign.md from the results.
+"""Import files of other programs, run what they give, and write tests/foreign/README.md from the results.
 
 Usage: python scripts/foreign_files.py measure FILE [--only NAME] ... | page
 
@@ -23,7 +23,7 @@ from bridge_demolition_addon.model.results.motion import travel
 ROOT = Path(__file__).resolve().parents[1]
 ROWS = ROOT / "docs" / "data" / "foreign_files.csv"
 DAMAGED = ROOT / "docs" / "data" / "damaged_files.csv"
-PAGE = ROOT / "docs" / "foreign.md"
+PAGE = ROOT / "tests" / "foreign" / "README.md"
 
 COLUMNS = (
     *("file", "bridge", "written_by", "elements", "members", "bearings", "approach_slabs", "left_out", "lost", "added"),
@@ -164,9 +164,9 @@ def page() -> str:
         "What `bda import FILE` makes of them, with no option but `--only` where a bridge is named. *Lost* is what had",
         "no geometry that can be used, beside what carries nothing anyway; *approach slabs* are left out where they",
         "lie on what moves on bearings, and members elsewhere; *assumed* counts the lines of `import.txt` on what was",
-        "assumed and mended; *bars* are those [by rule](ifc.md#bars-by-rule), in members of concrete beside footings",
-        "and approach slabs; the mass is compared with that which the file gives its elements. *Bars of steel* are",
-        "elements that become [steelwork](ifc.md#bars-of-steel), beside members.",
+        "assumed and mended; *bars* are those [by rule](../../docs/ifc.md#bars-by-rule), in members of concrete",
+        "beside footings and approach slabs; the mass is compared with that which the file gives its elements. *Bars of steel* are",
+        "elements that become [steelwork](../../docs/ifc.md#bars-of-steel), beside members.",
         "",
         "*By statics* is the largest utilisation under the bridge's own weight, of forces once what is overloaded has",
         "cracked, and how many connections that are; their bars hold them. *Awake* is the largest displacement of any",
@@ -190,8 +190,8 @@ def page() -> str:
         )
     lines += [
         "",
-        "Each bridge was run once, [one of many](accuracy.md#one-run-is-one-possible-outcome), or not where a dash",
-        "stands: its statics alone were worked out, or nothing but the import for the box girder of IFC4X1: those of",
+        "Each bridge was run once, [one of many](../../docs/accuracy.md#one-run-is-one-possible-outcome), or not",
+        "where a dash stands: its statics alone were worked out, or nothing but the import for the box girder of IFC4X1: those of",
         "its 173 plates had not ended after eight minutes on two busy cores.",
         "A bridge of which much is lost, such as the abutments of an OpenBrIM file, stands on supports that are added.",
         "",
@@ -205,7 +205,7 @@ def page() -> str:
         "curve are not.",
         "",
         *_damaged(),
-        "Two of the files are in [tests/foreign/files](../tests/foreign/files), with their licences; the others may be",
+        "Two of the files are in [tests/foreign/files](files), with their licences; the others may be",
         "used for tests, but not passed on. `python scripts/foreign_files.py` measures and writes this page.",
     ]
     return "\n".join(lines) + "\n"
@@ -236,7 +236,7 @@ def _damaged() -> list[str]:
         f"**Damaged files.** Of {len(results)} files that were damaged at random, IFC and terrain as grids, LandXML,",
         f"GeoTIFF, points, clouds and meshes, {texts[0]} and {texts[1]} of IFC, {texts[2]} and {texts[3]} of terrain;",
         f"{faults or 'none'} ended a process that the user sees, or showed a traceback",
-        "(`python scripts/fuzz_foreign.py --keep`, [data](data/damaged_files.csv)).",
+        "(`python scripts/fuzz_foreign.py --keep`, [data](../../docs/data/damaged_files.csv)).",
         "",
     ]
 

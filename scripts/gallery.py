@@ -30,7 +30,7 @@ REALISTIC_PICTURES = PICTURES / "realistic.json"
 
 LOOKS = """\
 They are by `pictures.renderer = "realistic"`. Road, banks, figures, machines, dust, chips, bent bars and rough faces
-are for looks only: they are no bodies, and change no motion ([what is drawn](pictures.md#looks))."""
+are for looks only: they are no bodies, and change no motion ([what is drawn](run_folder.md#looks-of-pictures))."""
 
 MOMENTS = ("before", "impact", "after")
 PICTURE_PX, GAP_PX = (480, 270), 8

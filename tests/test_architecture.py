@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""docs/architecture.md shows the layers and rooms that the import contracts order, and that the folders are."""
+"""The README of the package shows the layers and rooms that the import contracts order, and that the folders are."""
 
 import ast
 import re
@@ -41,7 +41,7 @@ def rows_of(boxes):
 
 def first_cells(heading):
     """First cells of the table under a heading of the page."""
-    text = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
+    text = (ROOT / "bridge_demolition_addon" / "README.md").read_text(encoding="utf-8")
     section = re.search(rf"^## {heading}\n(.*?)(?=^## |\Z)", text, flags=re.S | re.M).group(1)
     return re.findall(r"^\| (\S+) \|", section, flags=re.M)[2:]  # without heading and dashes
 

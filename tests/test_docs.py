@@ -7,9 +7,13 @@ from collections import Counter
 import pytest
 from support.checkout import ROOT
 
-DOCUMENTS = [*sorted(ROOT.glob("*.md")), *sorted((ROOT / "docs").glob("*.md"))]
-
 PACKAGE = ROOT / "bridge_demolition_addon"
+BESIDE_THE_CODE = [
+    page
+    for base in (PACKAGE, ROOT / "core", ROOT / "scripts", ROOT / "tests")
+    for page in sorted(base.rglob("README.md"))
+]
+DOCUMENTS = [*sorted(ROOT.glob("*.md")), *sorted((ROOT / "docs").glob("*.md")), *BESIDE_THE_CODE]
 MADE = {line.strip("/") for line in (ROOT / ".gitignore").read_text(encoding="utf-8").split()}
 """What a run or a build leaves in the project."""
 
@@ -51,7 +55,7 @@ def broken_links(document, root=ROOT):
     return broken
 
 
-@pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: path.name)
+@pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: path.relative_to(ROOT).as_posix())
 def test_every_link_leads_to_a_file_and_its_heading(document):
     assert broken_links(document) == []
 
@@ -71,7 +75,7 @@ def named_paths(text):
     return [path for path in found if "NAME" not in path]
 
 
-@pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: path.name)
+@pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: path.relative_to(ROOT).as_posix())
 def test_every_path_in_the_text_is_there(document):
     paths = set(named_paths(document.read_text(encoding="utf-8")))
     assert [path for path in paths if not any([*ROOT.glob(path), *PACKAGE.glob(path)])] == []
@@ -84,7 +88,7 @@ def test_paths_are_found_in_a_text():
     assert named_paths(text) == ["engineering/units.py", "scripts/test", "tests/model", "examples/i235_*.toml"]
 
 
-@pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: path.name)
+@pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: path.relative_to(ROOT).as_posix())
 def test_every_dotted_name_of_code_is_there(document):
     layers = "|".join(path.parent.name for path in PACKAGE.glob("*/__init__.py"))
     named = re.findall(rf"`((?:{layers})\.[\w.]+)\.(\w+)`", document.read_text(encoding="utf-8"))
@@ -100,10 +104,12 @@ def defines(module, name):
 
 def test_every_row_of_the_architecture_names_what_its_files_define():
     rows = [
-        line for line in (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8").splitlines() if ".py)" in line
+        line
+        for line in (ROOT / "bridge_demolition_addon" / "README.md").read_text(encoding="utf-8").splitlines()
+        if ".py)" in line
     ]
     assert len(rows) > 4
     for row in rows:
-        modules = [ROOT / "docs" / path for path in re.findall(r"\]\(([^)]+\.py)\)", row)]
+        modules = [PACKAGE / path for path in re.findall(r"\]\(([^)]+\.py)\)", row)]
         for name in re.findall(r"`(\w+)`", row):
             assert any(defines(module, name) for module in modules), f"{name}: {row}"

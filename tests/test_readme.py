@@ -4,9 +4,6 @@
 import csv
 import re
 import shlex
-import tomllib
-from importlib.machinery import SourceFileLoader
-from importlib.util import module_from_spec, spec_from_loader
 from pathlib import Path
 
 import pytest
@@ -70,24 +67,6 @@ def test_its_commands_run_one_after_the_other(tmp_path, monkeypatch, capsys):
 def test_every_command_that_it_names_is_there():
     named = set(re.findall(r"`bda (\w+)", TEXT))
     assert named and named <= set(COMMANDS)
-
-
-def test_what_is_to_be_installed_can_be():
-    extras = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["optional-dependencies"]
-    named = re.findall(r'pip install "\.\[(\w+)\]"', TEXT)
-    assert named and set(named) <= set(extras)
-    for words in commands("python"):
-        assert words[1:3] == ["-m", "pip"] or (ROOT / words[1]).is_file()
-
-
-def test_zips_are_called_as_they_are_built():
-    loader = SourceFileLoader("build_extension", str(ROOT / "scripts" / "build_extension"))
-    module = module_from_spec(spec_from_loader(loader.name, loader))
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setitem(__import__("sys").modules, loader.name, module)
-        loader.exec_module(module)
-    named = set(re.findall(r"`(blender-[\w.-]+)`", TEXT))
-    assert named == {series.name for series in module.SERIES.values() if series.name.startswith("blender")}
 
 
 def test_its_figures_are_those_of_the_demolition_that_it_shows():

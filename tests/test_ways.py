@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The ways in docs/architecture.md: a small run and a small study really pass their files, in the order of the rows."""
+"""The ways in the README of the package: a small run and a small study really pass their files, in the order of the rows."""
 
 import ast
 import os
@@ -51,7 +51,7 @@ def names_in(path):
 
 def ways():
     """The stations of each way by its heading: the file of a row, and the first of its functions that the row names."""
-    text = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
+    text = (ROOT / "bridge_demolition_addon" / "README.md").read_text(encoding="utf-8")
     found = {}
     for heading, section in re.findall(r"^## (The way of .*?)\n(.*?)(?=^## |\Z)", text, flags=re.S | re.M):
         rows = re.findall(r"^\| \[([^\]]+)\]\([^)]*\) \| (.*) \|$", section, flags=re.M)

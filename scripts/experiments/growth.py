@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measure how time and memory of a run grow with the number of shards, and draw it for docs/performance.md.
+"""Measure how time and memory of a run grow with the number of shards, and draw it for scripts/benches/README.md.
 
 The I-235 span is cut into more and more shards, connected where they share a face, awake from the start and as strong
 as large models are by default. Each number has a process of its own, which prints one row of the CSV. All times are CPU

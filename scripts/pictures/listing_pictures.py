@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Make the pictures of docs/listing.md: the icon, drawn here, and three realistic pictures of a run.
+"""Make the pictures of scripts/README.md: the icon, drawn here, and three realistic pictures of a run.
 
 Usage: listing_pictures.py [RUN [SECONDS]] takes the run in a folder, by default that of the preset drilled_spans which
 `python scripts/pictures/preset_pictures.py drilled_spans` leaves. The featured picture is of the time that is given.
