@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Run the cases of the validation and write docs/validation.md, with a picture for each.
+"""Run the cases of the validation and write docs/validation.md and validation/README.md, with a picture for each.
 
 Named ones are run alone and printed; `--keep` writes what they came to into the document, which is otherwise done when
 all are run. Each case writes scenarios with their meshes into a folder, so that `bda run` repeats any of them.
@@ -8,6 +8,7 @@ all are run. Each case writes scenarios with their meshes into a folder, so that
 import argparse
 import importlib
 import json
+import re
 import sys
 import tempfile
 import time
@@ -20,7 +21,7 @@ sys.path.insert(1, str(Path(__file__).resolve().parent.parent / "validation"))
 
 from blind import BlindCase
 from blind_page import section as blind_section
-from case import GROUPS, Against, Case, Comparison, Found
+from case import GROUPS, VALIDATION, Against, Case, Comparison, Found
 from deciding_version import deciding_version
 from matplotlib.figure import Figure
 
@@ -60,6 +61,8 @@ BLIND_CASES = ("blind_beams", "blind_sections", "blind_airblast")
 """Cases whose forecasts were kept before their outcomes were opened; scripts/blind_forecast makes them."""
 
 DOCUMENT, PICTURES = ROOT / "docs" / "validation.md", ROOT / "docs" / "pictures" / "validation"
+VERIFICATION = ROOT / "validation" / "README.md"
+"""The cases that are held against theory alone, beside their code."""
 KEPT = ROOT / "docs" / "data" / "validation"
 """What each case came to when it was kept last, in a file of its own."""
 
@@ -94,6 +97,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if is_kept or options.page:
         outcomes_kept = [kept(name) for name in CASES]
         DOCUMENT.write_text(page(outcomes_kept), encoding="utf-8")
+        VERIFICATION.write_text(verification_page(outcomes_kept), encoding="utf-8")
         TABLE.write_text(measurements(outcomes_kept), encoding="utf-8")
     return 0 if all(outcome.is_met for outcome in outcomes) else 1
 
@@ -159,13 +163,19 @@ def page(outcomes: Sequence[Outcome]) -> str:
     lines = [_HEAD, *_overview(outcomes), "", "## What misses", "", _MISSES, "", *_misses(outcomes)]
     minutes = sum(outcome.seconds for outcome in outcomes) / 60.0
     lines += ["", f"All of them take {minutes:.0f} minutes.", ""]
-    for group in GROUPS:
-        members = [outcome for outcome in outcomes if outcome.case.group == group]
-        lines += [f"## {group}", "", _OF_GROUP[group], ""]
-        for member in members:
-            lines += _section(member)
+    lines += ["## Validation", "", _VALIDATION, "", *_sections(outcomes, VALIDATION)]
     lines += blind_section([blind_case_named(name) for name in BLIND_CASES])
     return "\n".join(lines)
+
+
+def verification_page(outcomes: Sequence[Outcome]) -> str:
+    """Return the document of the cases that are held against theory of the same model alone."""
+    text = "\n".join([_VERIFICATION, *_sections(outcomes, GROUPS[0])])
+    return re.sub(r"\]\((?=[a-z])", "](../docs/", text)
+
+
+def _sections(outcomes: Sequence[Outcome], group: str) -> list[str]:
+    return [line for outcome in outcomes if outcome.case.group == group for line in _section(outcome)]
 
 
 def _overview(outcomes: Sequence[Outcome]) -> list[str]:
@@ -212,7 +222,8 @@ def _misses(outcomes: Sequence[Outcome]) -> list[str]:
 
 
 def _link(outcome: Outcome) -> str:
-    return f"[{outcome.case.title}](#{_anchor(outcome.case.title)})"
+    page = "" if outcome.case.group == VALIDATION else "../validation/README.md"
+    return f"[{outcome.case.title}]({page}#{_anchor(outcome.case.title)})"
 
 
 def _anchor(title: str) -> str:
@@ -242,14 +253,12 @@ def _section(outcome: Outcome) -> list[str]:
         f"*Source*: {case.source}",
         "",
         *(line for table in tables for line in table),
-        f"*Why it may be off by so much*: {case.reason}",
+        f"*Tolerance*: {case.reason}",
         "",
         f"![{case.title}](pictures/validation/{case.name}.png)",
         "",
-        f"    scripts/validate {case.name} --output DIR",
-        "",
-        f"repeats it in {max(5, 5 * round(seconds / 5)):.0f} s, and leaves its scenarios in `DIR`. These numbers are "
-        f"of version `{outcome.version}`.",
+        f"`scripts/validate {case.name} --output DIR` repeats it in {max(5, 5 * round(seconds / 5)):.0f} s (version "
+        f"`{outcome.version}`).",
         "",
     ]
 
@@ -262,43 +271,45 @@ def _table(outcome: Outcome, against: Against) -> list[str]:
 
 def _cells(comparison: Comparison) -> tuple[str, ...]:
     unit = f" {comparison.unit}" if comparison.unit else ""
-    verdict = "within its tolerance" if comparison.is_met else "**beyond its tolerance**"
+    verdict = "within" if comparison.is_met else "**beyond**"
     if isinstance(comparison.expected, tuple):
         low, high = comparison.expected
         return comparison.quantity, f"{low:.4g} to {high:.4g}{unit}", f"{comparison.found:.4g}{unit}", "", verdict
     off = comparison.found / comparison.expected
-    limit = f"{verdict} of {100.0 * comparison.tolerance:g} %"
+    limit = f"{verdict} {100.0 * comparison.tolerance:g} %"
     expected, found = (f"{value:.4g}{unit}" for value in (comparison.expected, comparison.found))
     by = f"{100.0 * (off - 1.0):+.1f} %" if comparison.against == Against.THEORY else f"{off:.2f}"
     return comparison.quantity, expected, found, by, limit
 
 
-_NAMES = {Against.THEORY: "theory of the same model", Against.MEASURED: "what was measured"}
+_NAMES = {Against.THEORY: "theory", Against.MEASURED: "measured"}
 
 _HEAD = """# Verification and validation
 
 Cases with a known answer, side by side with what this add-on makes of them. `scripts/validate` runs them and writes
-this page. Two questions are kept apart:
+this page.
 
 - **Verification**: does the program calculate what its model says? Its numbers are held against theory of the same
-  model: exact answers, limit analysis, other programs.
+  model: exact answers, limit analysis, other programs. These cases are [beside their code](../validation/README.md).
 - **Validation**: is that what happens? Its numbers are held against what was measured, or against formulas that were
   fitted to tests. The ratio is what was found over what was measured.
 
-What agrees with theory may be far from what was measured, where the model leaves out what matters. What it leaves out
-stands before the numbers. A case that misses stays in. Cases were built with their outcome at hand; the blind
-forecasts at the end of this page were not.
+What agrees with theory may be far from what was measured, where the model leaves out what matters. A case that misses
+stays in. Cases were built with their outcome at hand; the [blind forecasts](#blind-forecasts) were not.
 
 Bodies are rigid, and contacts are Bullet's: damping is off but in examples of the add-on and in columns of loose
 blocks, and edges are sharp. In cases with bars the connections are elastic.
 """
 
+_VERIFICATION = """# Verification
+
+Cases that are held against theory of the same model alone; `scripts/validate` writes this page.
+[Verification and validation](validation.md) says how all cases came out.
+"""
+
 _MISSES = """What is beyond its tolerance, with the ratio of what was found to what was expected."""
 
-_OF_GROUP = {
-    GROUPS[0]: "Held against theory of the same model alone.",
-    GROUPS[1]: "Held against what was measured, and where it is known against theory of the same model, too.",
-}
+_VALIDATION = """Held against what was measured, and where it is known against theory of the same model, too."""
 
 
 if __name__ == "__main__":

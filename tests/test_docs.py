@@ -10,8 +10,8 @@ from support.checkout import ROOT
 PACKAGE = ROOT / "bridge_demolition_addon"
 BESIDE_THE_CODE = [
     page
-    for base in (PACKAGE, ROOT / "core", ROOT / "scripts", ROOT / "tests")
-    for page in sorted(base.rglob("README.md"))
+    for folder in (PACKAGE, *(ROOT / name for name in ("core", "scripts", "tests", "validation")))
+    for page in sorted(folder.rglob("README.md"))
 ]
 DOCUMENTS = [*sorted(ROOT.glob("*.md")), *sorted((ROOT / "docs").glob("*.md")), *BESIDE_THE_CODE]
 MADE = {line.strip("/") for line in (ROOT / ".gitignore").read_text(encoding="utf-8").split()}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The ways in the README of the package: a small run and a small study really pass their files, in the order of the rows."""
+"""The ways in the README of the package: a small run and a small study pass their files, in the order of the rows."""
 
 import ast
 import os

@@ -70,7 +70,7 @@ def _row(foreseen: Foreseen, measured: float | None) -> str:
     first = f"| {foreseen.quantity} | {value} {foreseen.unit} | {low} to {high} {foreseen.unit} |"
     if measured is None:
         return f"{first} not known | | |"
-    verdict = "within its range" if foreseen.has(measured) else "**missed**"
+    verdict = "" if foreseen.has(measured) else "**missed**"
     return f"{first} {measured:.3g} {foreseen.unit} | {foreseen.value / measured:.2f} | {verdict} |"
 
 
