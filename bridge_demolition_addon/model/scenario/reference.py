@@ -3,6 +3,7 @@
 ``python -m bridge_demolition_addon.model.scenario.reference docs/scenario.md`` writes it.
 """
 
+import re
 import sys
 from collections.abc import Iterator
 from dataclasses import Field
@@ -29,7 +30,8 @@ INTRODUCTION = """\
 
 A scenario is a [TOML](https://toml.io) file. `bda check FILE` reads it and prints what follows from it, such as
 masses. `bda run FILE` runs it. Start from one of the [examples](../examples). Every key has its unit in its name. A key
-that is not listed here is refused, and so is a value outside its limits. No number is larger than any bridge has, such
+that is not listed here is refused, and so is a value outside its limits. A key without a default may be left out, and
+so may a table that is not required. No number is larger than any bridge has, such
 as 100 m of a thickness, 1000 m of a width, 1e8 m of anything else, 1e9 kg, 1e13 N or 1e6 s.
 
 x runs along the road, with 0 at the axis of the first pier; y across it, with 0 in its middle; z up, with 0 at the
@@ -54,6 +56,23 @@ Tables are merged key by key. Values and lists of tables (`[[...]]`) replace tho
 """
 
 
+_SHORTER = (
+    (r"^a text on one line, not blank$", "text"),
+    (r"^(?:a|one of|a number) (?=list|text|\"|from|above|of at)", ""),
+    (r"^a (?=number\b)", ""),
+    (r"^a whole number\b", "whole"),
+    (r"\blists? of (?:one or more )?", ""),
+    (r"\bnumbers (?=from|above|of at)", "numbers, "),
+    (r"\babove ", "> "),
+    (r"\bof at least ", "≥ "),
+    (r"\bfrom (?=[-\d])", ""),
+    (r" and up to ", " to "),
+    (r"(?<=\d)\.0\b", ""),
+    (r"\btrue or false\b", "true, false"),
+)
+"""Patterns in what a key takes, and what stands for each in a table."""
+
+
 def scenario_reference() -> str:
     """Return every table and key of a scenario file with its default, limits and meaning, in Markdown."""
     return reference(INTRODUCTION, Scenario)
@@ -67,8 +86,7 @@ def reference(introduction: str, root: type[Table]) -> str:
 def _section(table_class: type[Table], *, required: bool, many: bool = False) -> Iterator[str]:
     yield f"## [[{table_class.table}]]" if many else f"## [{table_class.table}]"
     yield ""
-    often = "As often as needed." if many else "May be left out."
-    yield f"{meaning(table_class)} {'Required.' if required else often}"
+    yield meaning(table_class) + (" Required." if required else " As often as needed." if many else "")
     yield ""
     if rows := list(map(_row, key_fields(table_class))):
         yield from ("| Key | Value | Default | Meaning |", "| --- | --- | --- | --- |", *rows, "")
@@ -77,7 +95,16 @@ def _section(table_class: type[Table], *, required: bool, many: bool = False) ->
 
 
 def _row(item: Field) -> str:
-    return f"| `{item.name}` | {expected(item)} | {default_text(item)} | {key_of(item).description} |"
+    default = "" if default_text(item) == "none" else default_text(item)
+    return f"| `{item.name}` | {value_text(item)} | {default} | {key_of(item).description} |"
+
+
+def value_text(item: Field) -> str:
+    """Return what a key takes as a table has it, such as ``> 0 (m)``: `expected` in as few words as can be."""
+    text = expected(item)
+    for long, short in _SHORTER:
+        text = re.sub(long, short, text)
+    return text
 
 
 def default_text(item: Field) -> str:
