@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measure at which load a slab with elastic connections comes down, by its number of shards, for docs/elastic.md.
+"""Measure at which load a slab with elastic connections comes down, by its number of shards, for its README.
 
 A slab of plain concrete, 5.1 m long, 1.5 m wide and 0.3 m deep, is fixed between two blocks and grows heavier until it
 comes down; its load is over that at which beam theory has it crack at its ends, w L² / 12. Each slab has a process of

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Calculate six elastic bridges by OpenSees, which `elastic_bridges.py` compares with, for docs/elastic.md.
+"""Calculate six elastic bridges by OpenSees, which `elastic_bridges.py` compares with, for its README.
 
 Portal, frame of an example, grillage and skewed slab are meshes of eight-node bricks or plane-stress quadrilaterals
 with one point of integration and stabilisation (SSPbrick, SSPquad); the deck over two spans is a beam of Timoshenko.

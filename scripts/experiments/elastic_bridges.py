@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measure how far bridges with elastic connections are off, by their number of shards, for docs/elastic.md.
+"""Measure how far bridges with elastic connections are off, by their number of shards, for its README.
 
 They rest under their weight as in `bda check`, without a simulation, and are compared with what OpenSees calculates
 for the same bridges (`bridges_by_opensees.py`).
 
 Usage: elastic_bridges.py measure [SEEDS] writes docs/data/elastic_bridges.csv, of seeds 1 to 5 by default;
-elastic_bridges.py table prints the medians over the seeds for docs/elastic.md.
+elastic_bridges.py table prints the medians over the seeds for its README.
 """
 
 from __future__ import annotations

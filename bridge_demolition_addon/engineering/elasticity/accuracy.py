@@ -1,7 +1,7 @@
 """How finely members are cut, and by how much results are off for that: measured, not derived.
 
 `scripts/experiments/elastic_bridges.py` compares five bridges with what OpenSees calculates for them, medians of five
-seeds (docs/elastic.md). What decides is by how many shards the members that span are long.
+seeds (README.md). What decides is by how many shards the members that span are long.
 """
 
 from __future__ import annotations

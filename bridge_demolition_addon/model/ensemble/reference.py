@@ -17,8 +17,8 @@ from typing import Any
 from ...errors import ScenarioError
 from ..optimise.settings import OptimiseSettings
 from ..scenario import Scenario
-from ..scenario.reference import default_text, meaning, reference
-from ..schema import Table, expected, given, holds_many, key_fields, key_name, key_of, subtable_class
+from ..scenario.reference import default_text, meaning, reference, value_text
+from ..schema import Table, given, holds_many, key_fields, key_name, key_of, subtable_class
 from ..search.settings import SearchSettings
 from ..study.settings import EnsembleSettings, StudySettings
 
@@ -45,13 +45,13 @@ class _Entry:
 
     def lines(self) -> Iterator[str]:
         if self.key is not None:
-            yield f"{self.name}: {expected(self.key)}; {_default(self.key)}"
+            yield f"{self.name}: {value_text(self.key)}; {_default(self.key)}"
             yield from _wrapped(key_of(self.key).description)
             return
         yield f"[[{self.name}]], as often as needed" if self.many else f"[{self.name}]"
         yield from _wrapped(meaning(self.table_class))
         for item in key_fields(self.table_class):
-            yield f"  {item.name}: {expected(item)}; {_default(item)}"
+            yield f"  {item.name}: {value_text(item)}; {_default(item)}"
 
 
 def explanation(name: str) -> list[str]:
