@@ -43,7 +43,7 @@ def test_runs_are_of_bridges_that_were_cut_into_so_many():
 
 def test_the_page_has_the_map_of_shafts_that_land():
     """Two zones always bring the column down; one does not where it is cut across and lands with up to 4.4 m/s."""
-    text = (ROOT / "docs" / "drilled_charges.md").read_text(encoding="utf-8")
+    text = (ROOT / "bridge_demolition_addon/engineering/drilled_charges/README.md").read_text(encoding="utf-8")
     assert [line for line in landing_shafts.table() if line not in text] == []
     with landing_shafts.FILE.open(newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))

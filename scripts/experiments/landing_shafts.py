@@ -6,7 +6,7 @@ A column of 1 x 1 m, with four bars of 25 mm at each of two sides, carries a blo
 the ground, a second one is in the middle of what is above it.
 
 Usage: landing_shafts.py writes docs/data/landing_shafts.csv, half an hour of one core; landing_shafts.py --table prints
-what docs/drilled_charges.md says of it.
+what engineering/drilled_charges/README.md says of it.
 """
 
 from __future__ import annotations
