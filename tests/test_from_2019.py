@@ -11,6 +11,9 @@ from support.checkout import ROOT
 from support.scenarios import I235
 
 TEXT = (ROOT / "docs" / "from_2019.md").read_text(encoding="utf-8")
+PACKAGE = ROOT / "bridge_demolition_addon"
+CODE = (PACKAGE / "README.md").read_text(encoding="utf-8")
+"""Has what its code has become."""
 
 TABLE_1 = """Wrecking Ball Mass, Bridge Total Mass, Bridge Model Geometry, Amounts of Explosives,
 Explosion Source Points, Source Limit (Number of fractures), Noise, Neighbor Limit, Search Radius,
@@ -37,10 +40,10 @@ overpressure_Plymoth_Bridge"""
 FILES = (".toml", ".json", ".csv", ".npz", ".png", ".blend", ".mp4", ".log")
 
 
-def section(heading):
-    """A section of the document, with those in it."""
+def section(heading, text=TEXT):
+    """A section of a document, with those in it."""
     level = len(heading) - len(heading.lstrip("#"))
-    return re.search(rf"^{re.escape(heading)}\n(.*?)(?=^#{{1,{level}}} |\Z)", TEXT, flags=re.S | re.M).group(1)
+    return re.search(rf"^{re.escape(heading)}\n(.*?)(?=^#{{1,{level}}} |\Z)", text, flags=re.S | re.M).group(1)
 
 
 def rows(text):
@@ -112,7 +115,7 @@ def test_every_simulation_and_chart_among_the_figures_is_there():
 
 
 def test_every_name_of_the_appendix_is_there():
-    told = {name for row in rows(section("## Code: Appendix A")) for name in ticked(row[0])}
+    told = {name for row in rows(section("## Code: Appendix A", CODE)) for name in ticked(row[0])}
     assert set(APPENDIX.split()) - told == set()
 
 
@@ -164,11 +167,11 @@ def test_every_operator_is_one(extension):
 
 
 def test_every_operator_and_panel_is_in_the_file_beside_it():
-    found = rows(section("### Operators and panels"))
+    found = rows(section("### Operators and panels", CODE))
     assert len(found) > 8
     for _, now in found:
-        files = re.findall(r"\]\(\.\./([^)]+)\)", now)
-        code = "".join((ROOT / file).read_text(encoding="utf-8") for file in files)
+        files = re.findall(r"\]\(([^)]+\.py)\)", now)
+        code = "".join((PACKAGE / file).read_text(encoding="utf-8") for file in files)
         assert [name for name in re.findall(r"\bbda\.([a-z_]+)", now) if f"class BDA_OT_{name}(" not in code] == []
         assert [name for name in re.findall(r"\*([^*]+)\*", now) if f'bl_label = "{name}"' not in code] == []
 

@@ -18,8 +18,7 @@ def explained(capsys, name):
 
 def test_a_key_is_explained_in_three_lines(capsys):
     assert explained(capsys, "charges.delay_ms") == (
-        "charges.delay_ms: 0 to 1000000 (ms); by default 0.0\n"
-        "  Time from blast.start_s to its detonation.\n"
+        "charges.delay_ms: 0 to 1000000 (ms); by default 0.0\n  Time from blast.start_s to its detonation.\n"
     )
 
 

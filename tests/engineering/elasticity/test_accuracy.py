@@ -60,7 +60,7 @@ def test_what_was_measured_is_off_by_no_more_than_is_said():
     ],
 )
 def test_bridges_on_bearings_meet_the_aims(bridge, missed):
-    """Reactions 2 %, moments and deflections 5 %, frequencies 3 %, but for what the README beside the code says in bold."""
+    """Reactions 2 %, moments and deflections 5 %, frequencies 3 %, but for what the README says in bold."""
     found = {
         (quantity, shards)
         for (name, quantity), by_shards in elastic_bridges.deviations().items()
@@ -72,4 +72,5 @@ def test_bridges_on_bearings_meet_the_aims(bridge, missed):
 
 def test_the_page_has_the_table_that_is_measured(capsys):
     elastic_bridges.table()
-    assert capsys.readouterr().out in (ROOT / "bridge_demolition_addon/engineering/elasticity/README.md").read_text(encoding="utf-8")
+    page = ROOT / "bridge_demolition_addon" / "engineering" / "elasticity" / "README.md"
+    assert capsys.readouterr().out in page.read_text(encoding="utf-8")
