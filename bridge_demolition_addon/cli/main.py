@@ -65,6 +65,7 @@ COMMANDS = {
         "charge", "find the smallest charge for a wanted load, or the effects of a charge around it or in drill holes"
     ),
     "charts": Command("charts", "draw the charts to choose charges by"),
+    "calibrate": Command("calibrate", "fit the law by which the ground of a site shakes to events measured there"),
 }
 
 

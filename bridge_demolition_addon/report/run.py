@@ -105,7 +105,7 @@ def run_document(
             sections.append(blast)
         if run.scenario and (charges := charge_plan_section(run.scenario, plan, _zone_loads(run))):
             sections.append(charges)
-        if run.scenario and (touchdown := touchdown_section(run.results, run.scenario.neighbours)):
+        if run.scenario and (touchdown := touchdown_section(run.results, run.scenario)):
             sections.append(touchdown)
         if motion := motion_section(run):
             sections.append(motion)

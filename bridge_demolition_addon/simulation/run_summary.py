@@ -11,6 +11,7 @@ from typing import Any
 import bpy
 import numpy as np
 
+from ..model.blast.vibration_laws import OF_FALL
 from ..model.debris.throws import bodies_under_ground, debris_of, debris_on_surfaces
 from ..model.debris.touchdown import landings, shaking_at
 from ..model.reinforcement.concrete_members import plain_concrete
@@ -191,8 +192,8 @@ def _of_scenario(
 
 def _touchdown(scenario: Scenario, results: Results) -> dict[str, Any]:
     """Touchdown vibration at each neighbour, by its name; None where nothing fell."""
-    landed = landings(results)
-    shaken = ((neighbour.name, shaking_at(neighbour.position_m, landed)) for neighbour in scenario.neighbours)
+    landed, law = landings(results), scenario.site_law(OF_FALL)
+    shaken = ((neighbour.name, shaking_at(neighbour.position_m, landed, law)) for neighbour in scenario.neighbours)
     return {name: shaking and asdict(shaking) for name, shaking in shaken}
 
 

@@ -29,7 +29,7 @@ TREE: dict[str, tuple[str, ...]] = {
         *("BDA_PT_fracture", "BDA_PT_materials", "BDA_PT_reinforcement", "BDA_PT_tendons"),
         *("BDA_PT_connections", "BDA_PT_bearings", "BDA_PT_supports", "BDA_PT_foundations"),
         "BDA_PT_dead_loads",
-        *("BDA_PT_ground", "BDA_PT_shards", "BDA_PT_contacts"),
+        *("BDA_PT_ground", "BDA_PT_vibration_laws", "BDA_PT_shards", "BDA_PT_contacts"),
     ),
     "BDA_PT_geometry": ("BDA_PT_geometry_reinforcement",),
     DEMOLITION: (

@@ -6,7 +6,7 @@ from dataclasses import replace
 from support.checkout import EXAMPLES
 from support.run_folders import TOLD
 
-from bridge_demolition_addon.model.scenario import Geometry, MemberCut
+from bridge_demolition_addon.model.scenario import Geometry, MemberCut, Neighbour, VibrationLaw
 from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.model.structure.zone_loads import ZoneLoad
 from bridge_demolition_addon.report.document.blocks import DataTable, Paragraph
@@ -96,3 +96,23 @@ def test_severed_members_have_a_table():
     assert [row[2] for row in found["firing_sequence"].rows] == ["Cut 1"]
     assert "drill_holes" not in found
     assert any("licensed blaster to say" in block.text for block in section.blocks if isinstance(block, Paragraph))
+
+
+def test_a_law_of_the_site_is_named_with_its_band_and_where_it_is_extrapolated():
+    law = VibrationLaw(
+        of="charges", velocity_mm_s=800.0, exponent=1.5, scatter=0.3, events=8, scaled=(20.0, 30.0, 60.0), spread=0.5
+    )
+    places = {"near": (13.0, 3.0, 1.0), "house": (13.0, 45.0, 1.0)}
+    neighbours = [Neighbour(name=name, position_m=place) for name, place in places.items()]
+    section = section_of(replace(DRILLED, neighbours=neighbours, vibration_laws=(law,)))
+    (of_law,) = [block.text for block in section.blocks if isinstance(block, Paragraph) and "this site" in block.text]
+    assert "800 mm/s (R/√Q)^-1.5" in of_law and "8 events" in of_law and "20 to 60 m/√kg" in of_law
+    assert [text for text in notices(section) if "extrapolated" in text] == [
+        "near: its scaled distance is outside those that were measured, so that the law of the site is extrapolated."
+    ]
+    table = tables(section)["charge_neighbours"]
+    expected, at_most = (
+        next(place for place, column in enumerate(table.columns) if column.key == name)
+        for name in ("peak_particle_velocity_mm_s", "at_most_mm_s")
+    )
+    assert all(row[at_most] > row[expected] > 0.0 for row in table.rows)

@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...engineering.arithmetic import cube_root, power
+from ...engineering.blast.site_law import SiteLaw
 from ...engineering.geometry.vectors import distance
 from ...engineering.units import STANDARD_GRAVITY_M_S2
 from ...texts import Text
@@ -70,7 +71,9 @@ class Landings:
 class Shaking:
     """How the ground is shaken at a position by bodies that land together from a time on.
 
-    `velocity_m_s` is the peak particle velocity by Zhou's formula, `distance_m` in plan to their middle by energy.
+    `velocity_m_s` is the peak particle velocity by Zhou's formula or the site's law, `distance_m` in plan to their
+    middle by energy. `at_most_m_s` is the upper line of that law, and without one the velocity; `is_extrapolated` says
+    whether the law was measured at other scaled distances.
     """
 
     velocity_m_s: float
@@ -78,6 +81,8 @@ class Shaking:
     mass_kg: float
     energy_j: float
     distance_m: float
+    at_most_m_s: float
+    is_extrapolated: bool = False
 
 
 def landings(results: Results) -> Landings:
@@ -103,11 +108,14 @@ def landings(results: Results) -> Landings:
     return Landings(*(values[order] for values in columns_of_bodies))
 
 
-def shaking_at(position_m: ArrayLike, landed: Landings) -> Shaking | None:
-    """Return the largest shaking of the ground at a position (3,), m; None where nothing landed."""
+def shaking_at(position_m: ArrayLike, landed: Landings, law: SiteLaw | None = None) -> Shaking | None:
+    """Return the largest shaking of the ground at a position (3,), m, by the site's law; None where nothing landed.
+
+    Without a law it is by Zhou's formula.
+    """
     return max(
-        (_shaking(position_m, landed, together) for together in landed.together()),
-        key=lambda shaking: shaking.velocity_m_s,
+        (_shaking(position_m, landed, together, law) for together in landed.together()),
+        key=lambda shaking: shaking.at_most_m_s,
         default=None,
     )
 
@@ -118,14 +126,17 @@ def touchdown_velocity(distance_m: ArrayLike, energy_j: ArrayLike) -> np.ndarray
     return VELOCITY_M_S * power(scaled, -EXPONENT)
 
 
-def _shaking(position_m: ArrayLike, landed: Landings, together: slice) -> Shaking:
+def _shaking(position_m: ArrayLike, landed: Landings, together: slice, law: SiteLaw | None) -> Shaking:
     energies = landed.energies_j[together]
     middle = (energies[:, None] * landed.places_m[together]).sum(axis=0) / energies.sum()
     distance_m = max(float(distance(np.asarray(position_m, float)[:2], middle[:2])), _NEAREST_M)
     energy_j = float(energies.sum())
-    velocity = float(touchdown_velocity(distance_m, energy_j))
+    velocity = float(law.velocity(distance_m, energy_j / 1e3) if law else touchdown_velocity(distance_m, energy_j))
+    at_most = float(law.at_most(distance_m, energy_j / 1e3)) if law else velocity
     mass = float(landed.masses_kg[together].sum())
-    return Shaking(velocity, float(landed.times_s[together.start]), mass, energy_j, distance_m)
+    is_extrapolated = law is not None and not law.covers(distance_m, energy_j / 1e3)
+    time_s = float(landed.times_s[together.start])
+    return Shaking(velocity, time_s, mass, energy_j, distance_m, at_most, is_extrapolated)
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,6 +9,7 @@ from ..blast.blast_zones import BlastZone
 from ..blast.charges import Charge
 from ..blast.cuts import MemberCut
 from ..blast.settings import BlastSettings
+from ..blast.vibration_laws import VibrationLaw
 from ..changes.removals import Removal, Weakening
 from ..changes.saw_cuts import SawCut, TendonCut
 from ..lifts import Lift
@@ -96,6 +97,7 @@ __all__ = [
     "TendonCut",
     "TimeSettings",
     "TrussSpan",
+    "VibrationLaw",
     "Voids",
     "Weakening",
     "Zone",

@@ -7,6 +7,7 @@ from functools import cache
 from itertools import chain, combinations
 from typing import Any, ClassVar, Literal, NamedTuple
 
+from ...engineering.blast.site_law import SiteLaw
 from ...engineering.elasticity.steel_bars import Steel
 from ...engineering.ground_motion import GroundRecord
 from ...engineering.mechanics.joint import Joint
@@ -17,6 +18,7 @@ from ..blast.blast_zones import BlastZone, check_zones_apart
 from ..blast.charges import Charge
 from ..blast.cuts import MemberCut, check_cuts
 from ..blast.settings import BlastSettings
+from ..blast.vibration_laws import VibrationLaw, check_laws
 from ..changes.change import Change
 from ..changes.removals import Removal, Weakening
 from ..changes.saw_cuts import SawCut, TendonCut
@@ -124,7 +126,12 @@ class Scenario(Table):
     exclusion: Exclusion | None = None
     site: Site | None = None
     neighbours: tuple[Neighbour, ...] = ()
+    vibration_laws: tuple[VibrationLaw, ...] = ()
     equipment: tuple[Equipment, ...] = ()
+
+    def site_law(self, of: str) -> SiteLaw | None:
+        """Return how the ground carries vibration of `charges` or of the `fall`; None where no one did."""
+        return next((table.law for table in self.vibration_laws if table.of == of), None)
 
     @property
     def timeline(self) -> Timeline:
@@ -329,6 +336,7 @@ class Scenario(Table):
             )
         self._check_dead_loads()
         self._check_foundations()
+        check_laws(self.vibration_laws)
 
     def _check_equipment(self) -> None:
         """Check that no machine stands twice at one time, as it would weigh twice."""

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ...engineering.blast.site_law import SiteLaw
 from ...engineering.blast.vibration import peak_particle_velocity
 from ...engineering.drilled_charges.fragments import HeightsAt
 from ...engineering.drilled_charges.neighbours import (
@@ -19,6 +20,7 @@ from ...engineering.drilled_charges.neighbours import (
     largest_mass_together_kg,
 )
 from ...engineering.geometry.vectors import AXES, distance
+from ..blast.vibration_laws import OF_CHARGES
 from ..bridge.member import Member
 from ..bridge.preparation import room_around
 from ..scenario import MemberCut, Neighbour, Scenario
@@ -78,6 +80,8 @@ class AtNeighbour:
     distance_m: float  # to the nearest zone
     velocity_m_s: float  # of the ground
     pressure_pa: float  # in the air
+    at_most_m_s: float  # upper line of the site's law; without one, the velocity
+    is_extrapolated: bool = False  # whether the law was measured at other scaled distances
 
     @property
     def level_db(self) -> float:
@@ -87,7 +91,7 @@ class AtNeighbour:
     def is_above_limit(self) -> bool:
         """Return whether a limit of the neighbour is not kept."""
         velocity_mm_s, level_db = self.neighbour.limit_mm_s, self.neighbour.limit_db
-        return (velocity_mm_s is not None and 1e3 * self.velocity_m_s > velocity_mm_s) or (
+        return (velocity_mm_s is not None and 1e3 * self.at_most_m_s > velocity_mm_s) or (
             level_db is not None and self.level_db > level_db
         )
 
@@ -145,7 +149,8 @@ def neighbours_of_zones(scenario: Scenario, members: Sequence[Member]) -> tuple[
 
 
 def _at_neighbours(scenario: Scenario, rows: Sequence[FiredRow]) -> tuple[AtNeighbour, ...]:
-    return tuple(_at_neighbour(neighbour, rows) for neighbour in scenario.neighbours)
+    law = scenario.site_law(OF_CHARGES)
+    return tuple(_at_neighbour(neighbour, rows, law) for neighbour in scenario.neighbours)
 
 
 def _rows(scenario: Scenario, zones: Sequence[PlacedZone], members: Sequence[Member]) -> tuple[FiredRow, ...]:
@@ -201,13 +206,13 @@ def _totals(
     )
 
 
-def _at_neighbour(neighbour: Neighbour, rows: Sequence[FiredRow]) -> AtNeighbour:
+def _at_neighbour(neighbour: Neighbour, rows: Sequence[FiredRow], law: SiteLaw | None) -> AtNeighbour:
     """Return the largest effects of all that can fire together, as if it all were where its nearest part is.
 
     Pressures of what is stemmed and of what is bare add up.
     """
     if not rows:
-        return AtNeighbour(neighbour, np.inf, 0.0, 0.0)
+        return AtNeighbour(neighbour, np.inf, 0.0, 0.0, 0.0)
     place = np.array(neighbour.position_m)
     distances = np.array([_distance(place, row.box_m) for row in rows])
     together = fires_together(np.array([row.time_s for row in rows]), np.array([row.spread_s for row in rows]))
@@ -218,12 +223,21 @@ def _at_neighbour(neighbour: Neighbour, rows: Sequence[FiredRow]) -> AtNeighbour
         np.where(of_group > 0.0, air_pressure_pa(nearest, np.maximum(of_group, _LEAST_KG), site_kpa), 0.0)
         for of_group, site_kpa in zip(of_groups, (STEMMED_KPA, BARE_KPA), strict=True)
     )
+    velocities, at_most, is_extrapolated = _velocities(nearest, of_groups[0] + of_groups[1], law)
     return AtNeighbour(
-        neighbour,
-        float(distances.min()),
-        float(peak_particle_velocity(nearest, sum(of_groups)).max()),
-        float(np.max(pressures)),
+        neighbour, float(distances.min()), velocities, float(np.max(pressures)), at_most, is_extrapolated
     )
+
+
+def _velocities(distances_m: np.ndarray, masses_kg: np.ndarray, law: SiteLaw | None) -> tuple[float, float, bool]:
+    """Return the largest velocity of groups (k,), the most that it may be, and whether that is extrapolated."""
+    if law is None:
+        velocity = float(peak_particle_velocity(distances_m, masses_kg).max())
+        return velocity, velocity, False
+    at_most = law.at_most(distances_m, masses_kg)
+    worst = int(at_most.argmax())
+    covered = law.covers(float(distances_m[worst]), float(masses_kg[worst]))
+    return float(law.velocity(distances_m, masses_kg).max()), float(at_most[worst]), not covered
 
 
 def _distance(place: np.ndarray, box_m: np.ndarray) -> float:

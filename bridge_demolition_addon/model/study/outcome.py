@@ -13,6 +13,7 @@ from ...engineering.blast.pulses import BlastModel
 from ...engineering.geometry.plan_areas import outlines
 from ...errors import OutputError
 from ..blast.receptors import loads_at
+from ..blast.vibration_laws import OF_FALL
 from ..bridge.preparation import prepared_members
 from ..debris.footprint import bodies_that_moved, footprint, plan_hulls, reaches_on_the_way, swept_footprint
 from ..debris.throws import debris_of
@@ -175,11 +176,11 @@ def _surroundings(results: Results, scenario: Scenario, bodies: np.ndarray) -> d
         loads = loads_at(neighbour.position_m, charges, model, scenario.blast.pressure_factor) if charges else None
         peak_pa, velocity_m_s = (loads.peak_pa, loads.peak_velocity_m_s) if loads else (0.0, 0.0)
         if drilled := of_holes.get(neighbour.name):
-            peak_pa, velocity_m_s = max(peak_pa, drilled.pressure_pa), max(velocity_m_s, drilled.velocity_m_s)
+            peak_pa, velocity_m_s = max(peak_pa, drilled.pressure_pa), max(velocity_m_s, drilled.at_most_m_s)
         outputs[neighbour_output(neighbour.name, "pressure_kPa")] = peak_pa / 1e3
         outputs[neighbour_output(neighbour.name, "vibration_mm_s")] = velocity_m_s * 1e3
-        shaking = shaking_at(neighbour.position_m, landed)
-        outputs[neighbour_output(neighbour.name, "touchdown_mm_s")] = shaking.velocity_m_s * 1e3 if shaking else 0.0
+        shaking = shaking_at(neighbour.position_m, landed, scenario.site_law(OF_FALL))
+        outputs[neighbour_output(neighbour.name, "touchdown_mm_s")] = shaking.at_most_m_s * 1e3 if shaking else 0.0
     return outputs
 
 

@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from ...engineering.blast.site_law import SiteLaw
 from ...engineering.blast.vibration import FREE_FACE_AVERAGE
 from ...engineering.drilled_charges.neighbours import BARE_KPA, STEMMED_KPA
 from ...errors import GeometryError, ScenarioError
+from ...model.blast.vibration_laws import OF_CHARGES
 from ...model.bridge.preparation import prepared_members
 from ...model.scenario import Scenario
 from ...model.schema import given
@@ -17,6 +19,7 @@ from ...model.structure.zone_fragments import FlyrockOfZone
 from ...model.structure.zone_loads import ZoneFall, ZoneLoad, bars_used, zone_falls
 from ...texts import Quantity, Text, Unit, joined
 from ..document.blocks import Block, Column, DataTable, Paragraph, Section, facts
+from ..wording.site_law import extrapolated_text, site_law_text
 from ..wording.verdict import CORDON, Flyrock, cordon_text, flyrock_of_plan
 
 _TITLE = Text("Charge plan")
@@ -135,6 +138,11 @@ _AROUND = (
     Column("air", "air_level_dB", ".0f", lambda at: at.level_db),
     Column("limit", "limit_dB", ".0f", lambda at: at.neighbour.limit_db),
 )
+_BY_SITE_LAW = (
+    *_AROUND[:3],
+    Column("at most", "at_most_mm_s", ".2f", lambda at: _MS_PER_S * at.at_most_m_s),
+    *_AROUND[3:],
+)
 _FLOWN = (
     Column("zone", "zone", "", lambda placed, _: zone_name(placed)),
     Column("factor of its cover", "cover_factor", ".2f", lambda placed, _: placed.zone.cover_factor),
@@ -210,7 +218,7 @@ def plan_blocks(plan: ChargePlan, scenario: Scenario, loads: Sequence[ZoneLoad] 
     yield Paragraph(_SEQUENCE)
     yield DataTable.of("firing_sequence", "Firing sequence", _FIRED, plan.rows)
     yield facts("Totals", _totals(plan), "charge_totals")
-    yield from _neighbours(plan.neighbours)
+    yield from _neighbours(plan.neighbours, scenario.site_law(OF_CHARGES))
     flown = [(placed, of) for placed, of in zip(plan.zones, plan.flyrock, strict=True) if of is not None]
     if flown:
         cordon_m = scenario.exclusion.cordon_m if scenario.exclusion else None
@@ -272,29 +280,45 @@ def _of_holes(totals: Totals) -> list[tuple[str, str]]:
     ]
 
 
-def _neighbours(at: Sequence[AtNeighbour]) -> Iterator[Block]:
+def _neighbours(at: Sequence[AtNeighbour], law: SiteLaw | None) -> Iterator[Block]:
     if not at:
         yield Paragraph(
             "The scenario has no neighbours: add tables [[neighbours]] for vibration and air pressure there."
         )
         return
-    ground = FREE_FACE_AVERAGE
-    yield Paragraph(
-        Text(
-            "Vibration by v = {} mm/s (R/√Q)^-{} ({}), air pressure by P = {} kPa (R/Q^⅓)^-1.45 of stemmed holes, "
-            "{} kPa of what is bare (AS 2187.2), Q the mass within 8 ms and R the distance to its nearest part. "
-            "The fall of the bridge often shakes the ground more.",
-            f"{1e3 * ground.velocity_m_s:g}",
-            f"{ground.exponent:g}",
-            Text(ground.name),
-            f"{STEMMED_KPA:g}",
-            f"{BARE_KPA:g}",
-        )
-    )
+    if law is None:
+        yield Paragraph(_general_text())
+    else:
+        yield Paragraph(site_law_text(law, OF_CHARGES))
+        yield Paragraph(_air_text())
     for one in at:
         if one.is_above_limit:
             yield Paragraph(Text("{}: a limit is not kept.", one.neighbour.name), True)
-    yield DataTable.of("charge_neighbours", "At the neighbours", _AROUND, at)
+        if one.is_extrapolated:
+            yield Paragraph(extrapolated_text(one.neighbour.name), True)
+    yield DataTable.of("charge_neighbours", "At the neighbours", _AROUND if law is None else _BY_SITE_LAW, at)
+
+
+def _general_text() -> Text:
+    ground = FREE_FACE_AVERAGE
+    return Text(
+        "Vibration by v = {} mm/s (R/√Q)^-{} ({}), air pressure by P = {} kPa (R/Q^⅓)^-1.45 of stemmed holes, "
+        "{} kPa of what is bare (AS 2187.2), Q the mass within 8 ms and R the distance to its nearest part. "
+        "The fall of the bridge often shakes the ground more.",
+        f"{1e3 * ground.velocity_m_s:g}",
+        f"{ground.exponent:g}",
+        Text(ground.name),
+        f"{STEMMED_KPA:g}",
+        f"{BARE_KPA:g}",
+    )
+
+
+def _air_text() -> Text:
+    return Text(
+        "Air pressure by P = {} kPa (R/Q^⅓)^-1.45 of stemmed holes, {} kPa of what is bare (AS 2187.2).",
+        f"{STEMMED_KPA:g}",
+        f"{BARE_KPA:g}",
+    )
 
 
 def _fragments(flown: Sequence[tuple[PlacedZone, FlyrockOfZone]]) -> DataTable:

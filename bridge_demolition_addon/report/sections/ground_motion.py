@@ -9,16 +9,18 @@ from ...charts.ground_motion import ground_motion_history, moving_directions, re
 from ...engineering.ground_motion import GroundRecord
 from ...engineering.units import STANDARD_GRAVITY_M_S2
 from ...errors import ScenarioError
+from ...model.blast.vibration_laws import OF_FALL
 from ...model.debris.touchdown import EXPONENT, LIMITS, TOGETHER_S, VELOCITY_M_S, Shaking, landings, reached, shaking_at
 from ...model.ground_motion.record_files import read_record
 from ...model.ground_motion.settings import DIRECTIONS, GroundMotion
 from ...model.results.arrays import Results
 from ...model.run_folder.files import GROUND_MOTION_FILE
-from ...model.scenario import Neighbour, Scenario
+from ...model.scenario import Scenario
 from ...model.structure.settlement import settlements
 from ...texts import Quantity, Text, joined
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section
 from ..run_folder import ReportedRun
+from ..wording.site_law import extrapolated_text, site_law_text
 
 _SHAKING = Text(
     "Largest velocity of the ground by v = {} cm/s (R / (E / 10 kJ)^(1/3))^-{} (Zhou), with the distance R in m "
@@ -127,22 +129,25 @@ def _settlement_blocks(results: Results, scenario: Scenario) -> list[Block]:
     ]
 
 
-def touchdown_section(results: Results, neighbours: Sequence[Neighbour]) -> Section | None:
-    """Return how the fall shakes the ground at the neighbours; None where there are none."""
-    if not neighbours:
+def touchdown_section(results: Results, scenario: Scenario) -> Section | None:
+    """Return how the fall shakes the ground at the neighbours, by the site's law; None where there are none."""
+    if not scenario.neighbours:
         return None
-    landed = landings(results)
-    blocks: list[Block] = [Paragraph(_SHAKING)]
-    shaken = [(neighbour.name, shaking_at(neighbour.position_m, landed)) for neighbour in neighbours]
+    landed, law = landings(results), scenario.site_law(OF_FALL)
+    blocks: list[Block] = [Paragraph(_SHAKING if law is None else site_law_text(law, OF_FALL))]
+    known = [(neighbour.name, shaking_at(neighbour.position_m, landed, law)) for neighbour in scenario.neighbours]
+    shaken = [(name, shaking) for name, shaking in known if shaking is not None]
+    blocks += [Paragraph(extrapolated_text(name), True) for name, shaking in shaken if shaking.is_extrapolated]
     if len(landed):
-        blocks.append(_shaking_table([(name, shaking) for name, shaking in shaken if shaking is not None]))
+        blocks.append(_shaking_table(shaken, has_law=law is not None))
     else:
         blocks.append(Paragraph("Nothing fell and was stopped in this run."))
     blocks.append(_limit_table())
     return Section("Shaking of the ground by the fall", tuple(blocks))
 
 
-def _shaking_table(shaken: Sequence[tuple[str, Shaking]]) -> DataTable:
+def _shaking_table(shaken: Sequence[tuple[str, Shaking]], *, has_law: bool) -> DataTable:
+    at_most = Column("at most", "at_most_mm_s", ".2f", lambda _, shaking: 1e3 * shaking.at_most_m_s)
     columns = (
         Column("neighbour", "neighbour", "", lambda name, _: name),
         Column(
@@ -151,6 +156,7 @@ def _shaking_table(shaken: Sequence[tuple[str, Shaking]]) -> DataTable:
             ".2f",
             lambda _, shaking: 1e3 * shaking.velocity_m_s,
         ),
+        *((at_most,) if has_law else ()),
         Column(Text("from", context="time"), "time_s", ".2f", lambda _, shaking: shaking.time_s),
         Column("mass", "mass_t", ".1f", significant=3, value=lambda _, shaking: 1e-3 * shaking.mass_kg),
         Column("energy", "energy_kJ", ".0f", lambda _, shaking: 1e-3 * shaking.energy_j),
@@ -162,7 +168,7 @@ def _shaking_table(shaken: Sequence[tuple[str, Shaking]]) -> DataTable:
 
 
 def _limits_reached(shaking: Shaking) -> str:
-    return joined("{}, {}", [limit.building for limit in reached(shaking.velocity_m_s)]) or Text("none")
+    return joined("{}, {}", [limit.building for limit in reached(shaking.at_most_m_s)]) or Text("none")
 
 
 def _limit_table() -> DataTable:

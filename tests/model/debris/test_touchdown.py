@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 from support.moving_boxes import moving_boxes
 
+from bridge_demolition_addon.engineering.blast.site_law import SiteLaw
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2 as G
 from bridge_demolition_addon.model.debris.touchdown import landings, reached, shaking_at, touchdown_velocity
 
@@ -52,6 +53,21 @@ def test_what_lands_together_counts_as_one_and_what_lands_later_does_not():
     # v goes with the energy to the power of 1.66 / 3.
     assert at_once.velocity_m_s / apart.velocity_m_s == pytest.approx(2.0 ** (1.66 / 3.0), rel=1e-9)
     assert at_once.distance_m == pytest.approx(20.0)
+
+
+def test_a_law_of_the_site_takes_the_place_of_the_formula():
+    """1 t over 5 m is 49 kJ, 20 m from it a scaled distance of 2.86; by the law 10 mm/s · 2.86^-1.5 = 2.07 mm/s."""
+    law = SiteLaw(0.010, 1.5, 0.2, 6, nearest=1.0, farthest=5.0, middle=20.0 / 49.03**0.5, spread=0.7)
+    landed = landings(falling([5.0], [0.0], [[20.0, 0, 0]]))
+    shaking = shaking_at(np.zeros(3), landed, law)
+    assert 1e3 * shaking.velocity_m_s == pytest.approx(2.07, rel=0.01)
+    # t of four degrees of freedom is 2.776.
+    width = 2.776 * 0.2 * np.sqrt(1.0 + 1.0 / 6.0)
+    assert shaking.at_most_m_s / shaking.velocity_m_s == pytest.approx(np.exp(width), rel=1e-3)
+    assert not shaking.is_extrapolated
+    assert shaking_at(np.array([-60.0, 0.0, 0.0]), landed, law).is_extrapolated
+    without = shaking_at(np.zeros(3), landed)
+    assert without.at_most_m_s == without.velocity_m_s and not without.is_extrapolated
 
 
 def test_the_nearer_of_two_equal_landings_shakes_most():

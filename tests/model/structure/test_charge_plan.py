@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The charge plan: totals, firing sequence and neighbours against sums by hand."""
 
+import math
 from dataclasses import replace
 
 import pytest
 from support.drilled_columns import ZONE, column_members, column_scenario
 
-from bridge_demolition_addon.model.scenario import MemberCut, Neighbour
+from bridge_demolition_addon.errors import ScenarioError
+from bridge_demolition_addon.model.scenario import MemberCut, Neighbour, VibrationLaw
 from bridge_demolition_addon.model.structure.charge_plan import charge_plan
 
 pytestmark = pytest.mark.slow
@@ -103,3 +105,31 @@ def test_a_severed_member_counts_for_the_ground_the_air_and_totals(tmp_path):
     together = plan(tmp_path, ZONE, cuts=(replace(cut, delay_ms=0.0),), neighbours=(HOUSE,)).neighbours[0]
     pressures = 20e3 * (30.0 / 0.735 ** (1 / 3)) ** -1.45 + 516e3 * (30.0 / 2.0 ** (1 / 3)) ** -1.45
     assert together.pressure_pa == pytest.approx(pressures)
+
+
+@pytest.mark.parametrize("nearest, is_extrapolated", [(30.0, False), (40.0, True)])
+def test_a_law_of_the_site_takes_the_place_of_the_formula(tmp_path, nearest, is_extrapolated):
+    """30 m from 0.735 kg: a scaled distance of 34.99. v = 800 · 34.99^-1.5 = 3.865 mm/s; at the mean of the distances
+    the upper line is t s √(1 + 1 / 8) above it in logarithms, t of six degrees 2.447.
+    """
+    scaled = (nearest, 30.0 / 0.735**0.5 if nearest == 30.0 else 41.0, 60.0)
+    table = {"velocity_mm_s": 800.0, "exponent": 1.5, "scatter": 0.3, "events": 8, "scaled": scaled, "spread": 0.5}
+    law = VibrationLaw(of="charges", **table)
+    house = replace(HOUSE, limit_mm_s=6.0)
+    (at,) = plan(tmp_path, ZONE, neighbours=(house,), vibration_laws=(law,)).neighbours
+    assert 1e3 * at.velocity_m_s == pytest.approx(3.865, abs=1e-3)
+    assert at.is_extrapolated == is_extrapolated
+    assert at.is_above_limit  # 8.4 mm/s at most, although 3.9 are expected
+    if not is_extrapolated:
+        assert 1e3 * at.at_most_m_s == pytest.approx(3.865 * math.exp(2.447 * 0.3 * math.sqrt(1.125)), rel=1e-3)
+    (of_fall,) = plan(tmp_path, ZONE, neighbours=(house,), vibration_laws=(replace(law, of="fall"),)).neighbours
+    assert of_fall.at_most_m_s == of_fall.velocity_m_s and not of_fall.is_above_limit
+
+
+def test_one_law_of_a_kind_is_enough(tmp_path):
+    values = {"velocity_mm_s": 800.0, "exponent": 1.5, "scatter": 0.3, "events": 8, "spread": 0.5}
+    law = VibrationLaw(of="fall", scaled=(1.0, 2.0, 4.0), **values)
+    with pytest.raises(ScenarioError, match='more than one of "fall": expected one'):
+        plan(tmp_path, ZONE, vibration_laws=(law, law))
+    with pytest.raises(ScenarioError, match=r"vibration_laws.scaled is .*: expected the nearest, the mean"):
+        replace(law, scaled=(2.0, 1.0, 4.0))
