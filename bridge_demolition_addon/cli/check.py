@@ -23,6 +23,7 @@ from ..model.stages.stages import count_of_stages, equipment_facts
 from ..model.stages.standing import made_elastic
 from ..model.structure.bearing_ranges import LEAST_CUTS, MOST_CUTS, bearing_ranges
 from ..model.structure.blast_zones import placed_zones, zone_totals
+from ..model.structure.charge_plan import fired_rows
 from ..model.structure.cracking import RestingModel
 from ..model.structure.dead_loads import dead_load_facts
 from ..model.structure.facts import (
@@ -35,6 +36,7 @@ from ..model.structure.facts import (
     reaction_facts,
     rest_facts,
 )
+from ..model.structure.firing_order import firing_facts
 from ..model.structure.model import Model, build_model
 from ..model.structure.steel_bars import steel_facts
 from ..model.structure.tendons import tendon_facts
@@ -214,7 +216,9 @@ def _action_facts(scenario: Scenario, model: Model, zones: tuple[ZoneLoad, ...])
     sections.get(PlannedAction.heading, []).sort()
     lines = {heading: [fact for _, facts in parts for fact in facts] for heading, parts in sections.items()}
     if scenario.blast_zones:
-        lines[BlastZone.heading] += zone_totals(placed_zones(scenario, model.members, model.layers), model.members)
+        zones_placed = placed_zones(scenario, model.members, model.layers)
+        lines[BlastZone.heading] += zone_totals(zones_placed, model.members)
+        lines[BlastZone.heading] += firing_facts(fired_rows(scenario, zones_placed, model.members))
     if scenario.charges:
         lines[Charge.heading] += scenario.blast.facts(scenario.charges, scenario.fracture.shards)
     return lines

@@ -52,6 +52,12 @@ class FiredRow:
     detonator: str
     detonators: int = 1  # one in each hole, and one that severs a member
     is_bare: bool = False
+    rows: int = 1  # of its zone
+
+    @property
+    def deviation_s(self) -> float:
+        """Return the standard deviation of its time."""
+        return self.spread_s / _DEVIATIONS
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,7 +117,7 @@ class ChargePlan:
 def charge_plan(scenario: Scenario, members: Sequence[Member]) -> ChargePlan:
     """Return the plan of a scenario with blast zones or cuts, in its members."""
     zones = placed_zones(scenario, members)
-    rows = _rows(scenario, zones, members)
+    rows = fired_rows(scenario, zones, members)
     flown = iter(
         flyrock_of_zones(
             [placed for placed in zones if placed.zone.mass_kg], _heights_at(scenario, members), scenario.seed
@@ -145,7 +151,7 @@ def flyrock_of_run(scenario: Scenario, members: Sequence[Member]) -> tuple[Flyro
 
 def neighbours_of_zones(scenario: Scenario, members: Sequence[Member]) -> tuple[AtNeighbour, ...]:
     """Return what the zones and cuts of a scenario that fire do at its neighbours."""
-    return _at_neighbours(scenario, _rows(scenario, placed_zones(scenario, members), members))
+    return _at_neighbours(scenario, fired_rows(scenario, placed_zones(scenario, members), members))
 
 
 def _at_neighbours(scenario: Scenario, rows: Sequence[FiredRow]) -> tuple[AtNeighbour, ...]:
@@ -153,7 +159,8 @@ def _at_neighbours(scenario: Scenario, rows: Sequence[FiredRow]) -> tuple[AtNeig
     return tuple(_at_neighbour(neighbour, rows, law) for neighbour in scenario.neighbours)
 
 
-def _rows(scenario: Scenario, zones: Sequence[PlacedZone], members: Sequence[Member]) -> tuple[FiredRow, ...]:
+def fired_rows(scenario: Scenario, zones: Sequence[PlacedZone], members: Sequence[Member]) -> tuple[FiredRow, ...]:
+    """Return all rows that fire, in order of time."""
     planned = [*_rows_of_zones(zones), *_rows_of_cuts(scenario.cuts, members)]
     planned.sort(key=lambda row: row.time_s)
     masses = np.array([row.mass_kg for row in planned])
@@ -174,7 +181,16 @@ def _rows_of_zones(zones: Sequence[PlacedZone]) -> Iterator[FiredRow]:
             spread_s = _DEVIATIONS * deviation_s
             zone, name = placed.zone, zone_name(placed)
             yield FiredRow(
-                name, placed.box_m, number, time_s, spread_s, mass_kg, mass_kg, zone.detonator, zone.holes_a_row
+                name,
+                placed.box_m,
+                number,
+                time_s,
+                spread_s,
+                mass_kg,
+                mass_kg,
+                zone.detonator,
+                zone.holes_a_row,
+                rows=zone.rows,
             )
 
 
