@@ -180,7 +180,9 @@ def _surroundings(results: Results, scenario: Scenario, bodies: np.ndarray) -> d
         outputs[neighbour_output(neighbour.name, "pressure_kPa")] = peak_pa / 1e3
         outputs[neighbour_output(neighbour.name, "vibration_mm_s")] = velocity_m_s * 1e3
         shaking = shaking_at(neighbour.position_m, landed, scenario.site_law(OF_FALL))
-        outputs[neighbour_output(neighbour.name, "touchdown_mm_s")] = shaking.at_most_m_s * 1e3 if shaking else 0.0
+        at_most_m_s = shaking.at_most_m_s if shaking else 0.0
+        name = neighbour_output(neighbour.name, "touchdown_mm_s")
+        outputs[name] = None if at_most_m_s is None else at_most_m_s * 1e3
     return outputs
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from ...engineering.blast.site_law import SiteLaw
 from ...engineering.blast.vibration import FREE_FACE_AVERAGE
@@ -11,6 +11,7 @@ from ...engineering.drilled_charges.neighbours import BARE_KPA, STEMMED_KPA
 from ...errors import GeometryError, ScenarioError
 from ...model.blast.vibration_laws import OF_CHARGES
 from ...model.bridge.preparation import prepared_members
+from ...model.debris.vibration_limits import CHARGES_HZ
 from ...model.scenario import Scenario
 from ...model.schema import given
 from ...model.structure.blast_zones import POSSIBLE_G_T, RECORDED_G_T, PlacedZone
@@ -22,6 +23,7 @@ from ...texts import Quantity, Text, Unit, joined
 from ..document.blocks import Block, Column, DataTable, Paragraph, Section, facts
 from ..wording.site_law import extrapolated_text, site_law_text
 from ..wording.verdict import CORDON, Flyrock, cordon_text, flyrock_of_plan
+from ..wording.vibration_limits import limit_table, limits_text
 
 _TITLE = Text("Charge plan")
 _MEGA = 1e6
@@ -145,6 +147,7 @@ _AROUND = (
     Column("distance", "distance_m", ".1f", lambda at: at.distance_m),
     Column("ground", "peak_particle_velocity_mm_s", ".2f", lambda at: _MS_PER_S * at.velocity_m_s),
     Column("limit", "limit_mm_s", ".1f", lambda at: at.neighbour.limit_mm_s),
+    Column("reaches the limit for", "limits", "", lambda at: limits_text(at.at_most_m_s, CHARGES_HZ)),
     Column("air", "air_pressure_Pa", ".1f", lambda at: at.pressure_pa),
     Column("air", "air_level_dB", ".0f", lambda at: at.level_db),
     Column("limit", "limit_dB", ".0f", lambda at: at.neighbour.limit_db),
@@ -205,7 +208,8 @@ def charge_plan_section(
 def planned_section(scenario: Scenario, loads: Sequence[ZoneLoad] = ()) -> Section:
     """Return the charge plan of a scenario with blast zones or cuts, all of whose files are there."""
     plan = charge_plan(scenario, prepared_members(scenario).members)
-    return given(charge_plan_section(scenario, plan, loads))
+    section = given(charge_plan_section(scenario, plan, loads))
+    return replace(section, blocks=(*section.blocks, limit_table())) if scenario.neighbours else section
 
 
 def plan_blocks(plan: ChargePlan, scenario: Scenario, loads: Sequence[ZoneLoad] = ()) -> Iterator[Block]:

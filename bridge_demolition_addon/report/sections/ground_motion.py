@@ -10,17 +10,19 @@ from ...engineering.ground_motion import GroundRecord
 from ...engineering.units import STANDARD_GRAVITY_M_S2
 from ...errors import ScenarioError
 from ...model.blast.vibration_laws import OF_FALL
-from ...model.debris.touchdown import EXPONENT, LIMITS, TOGETHER_S, VELOCITY_M_S, Shaking, landings, reached, shaking_at
+from ...model.debris.touchdown import EXPONENT, NEAREST_M, TOGETHER_S, VELOCITY_M_S, Shaking, landings, shaking_at
+from ...model.debris.vibration_limits import FALL_HZ
 from ...model.ground_motion.record_files import read_record
 from ...model.ground_motion.settings import DIRECTIONS, GroundMotion
 from ...model.results.arrays import Results
 from ...model.run_folder.files import GROUND_MOTION_FILE
 from ...model.scenario import Scenario
 from ...model.structure.settlement import settlements
-from ...texts import Quantity, Text, joined
+from ...texts import Quantity, Text
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section
 from ..run_folder import ReportedRun
 from ..wording.site_law import extrapolated_text, site_law_text
+from ..wording.vibration_limits import limit_table, limits_text
 
 _SHAKING = Text(
     "Largest velocity of the ground by v = {} cm/s (R / (E / 10 kJ)^(1/3))^-{} (Zhou), with the distance R in m "
@@ -137,24 +139,25 @@ def touchdown_section(results: Results, scenario: Scenario) -> Section | None:
     blocks: list[Block] = [Paragraph(_SHAKING if law is None else site_law_text(law, OF_FALL))]
     known = [(neighbour.name, shaking_at(neighbour.position_m, landed, law)) for neighbour in scenario.neighbours]
     shaken = [(name, shaking) for name, shaking in known if shaking is not None]
+    blocks += [Paragraph(_too_near_text(name), True) for name, shaking in shaken if shaking.at_most_m_s is None]
     blocks += [Paragraph(extrapolated_text(name), True) for name, shaking in shaken if shaking.is_extrapolated]
     if len(landed):
         blocks.append(_shaking_table(shaken, has_law=law is not None))
     else:
         blocks.append(Paragraph("Nothing fell and was stopped in this run."))
-    blocks.append(_limit_table())
+    blocks.append(limit_table())
     return Section("Shaking of the ground by the fall", tuple(blocks))
 
 
 def _shaking_table(shaken: Sequence[tuple[str, Shaking]], *, has_law: bool) -> DataTable:
-    at_most = Column("at most", "at_most_mm_s", ".2f", lambda _, shaking: 1e3 * shaking.at_most_m_s)
+    at_most = Column("at most", "at_most_mm_s", ".2f", lambda _, shaking: _mm_s(shaking.at_most_m_s))
     columns = (
         Column("neighbour", "neighbour", "", lambda name, _: name),
         Column(
             "ground velocity",
             "peak_particle_velocity_mm_s",
             ".2f",
-            lambda _, shaking: 1e3 * shaking.velocity_m_s,
+            lambda _, shaking: _mm_s(shaking.velocity_m_s),
         ),
         *((at_most,) if has_law else ()),
         Column(Text("from", context="time"), "time_s", ".2f", lambda _, shaking: shaking.time_s),
@@ -167,14 +170,18 @@ def _shaking_table(shaken: Sequence[tuple[str, Shaking]], *, has_law: bool) -> D
     return DataTable.of("touchdown", "Shaking at the neighbours by the fall", columns, names, shakings)
 
 
+def _mm_s(velocity_m_s: float | None) -> float | None:
+    return None if velocity_m_s is None else 1e3 * velocity_m_s
+
+
 def _limits_reached(shaking: Shaking) -> str:
-    return joined("{}, {}", [limit.building for limit in reached(shaking.at_most_m_s)]) or Text("none")
+    return Text("not known") if shaking.at_most_m_s is None else limits_text(shaking.at_most_m_s, FALL_HZ)
 
 
-def _limit_table() -> DataTable:
-    columns = (
-        Column("building", "building", "", lambda limit: limit.building),
-        Column("velocity", "velocity_mm_s", ".0f", lambda limit: 1e3 * limit.velocity_m_s),
-        Column("source", "source", "", lambda limit: limit.source),
+def _too_near_text(neighbour: str) -> Text:
+    return Text(
+        "{}: what shakes it most lands nearer than {}, where no general formula holds and none is given. A drop test "
+        "gives the law of the site: bda calibrate.",
+        neighbour,
+        Quantity(NEAREST_M, "m", "g"),
     )
-    return DataTable.of("vibration_limits", "Limits at low frequency, at the foundation", columns, LIMITS)
