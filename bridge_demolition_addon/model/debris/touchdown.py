@@ -47,7 +47,7 @@ of the Shengli bridge and 327 mm/s at 10 m from a field of the Sinntal bridge, w
 (infranken.de, 2013); bridges beside both were unharmed."""
 
 _AT_LEAST_M = 1.0
-"""A distance that a landing on the place itself counts with."""
+"""A landing at the position itself counts with this distance."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
