@@ -17,7 +17,7 @@ import sensitivity
 from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.model.structure.facts import DEBRIS_M, SAG_M, convergence_facts
 
-PAGE = ROOT / "docs" / "choosing.md"
+PAGE = ROOT / "scripts" / "experiments" / "README.md"
 WALKS = {"drilled": 4, "ball": 3}
 """Demolitions whose sensitivity was measured, and the walks of each."""
 

@@ -6,7 +6,7 @@ otherwise: what differs between settings by less than between seeds is no trend.
 
 Usage: convergence.py [RUNS_AT_ONCE] writes docs/data/convergence.csv, and goes on where it stopped, an hour of one
 core; convergence.py --one SHARDS FARTHEST_M ITERATIONS SEED prints one row; convergence.py --table prints what
-docs/choosing.md says of all.
+README.md says of all.
 """
 
 from __future__ import annotations

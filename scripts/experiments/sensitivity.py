@@ -8,7 +8,7 @@ lost in chance. Samples and effects are SALib's (Iwanaga, Usher, Herman 2022), o
 
 Usage: sensitivity.py DEMOLITION [RUNS_AT_ONCE] writes docs/data/sensitivity/DEMOLITION.csv, and goes on where it
 stopped; sensitivity.py DEMOLITION --one RUN prints one row; sensitivity.py DEMOLITION --table prints what
-docs/choosing.md says of it. DEMOLITION is drilled or ball.
+README.md says of it. DEMOLITION is drilled or ball.
 """
 
 from __future__ import annotations
