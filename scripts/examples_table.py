@@ -73,8 +73,8 @@ NOW, OF_2019 = (
     """
 ## The demolitions of 2019
 
-With the settings or the bare charges of the [2019 report](from_2019.md). Where such a bridge does not stand by statics,
-it stands in a run as long as it sleeps, which is how it was in 2019. Runs are cut short where a time is given. They
+With the settings or the bare charges of the [2019 report](from_2019.md). Methods without faces of shards have no
+stresses, so whether a bridge stands is *unknown*; it stands in a run as long as it sleeps, as in 2019. Runs are cut short where a time is given. They
 are of a version that counted as made by the solver what contacts only [give back](report.md#what-the-numbers-mean).
 """,
 )
@@ -151,7 +151,7 @@ def standing(row: dict[str, str] | None) -> str:
     if row is None:
         return "not worked out"
     if not row["utilisation"]:
-        return f"{row['verdict']}: {row['reason']}" if row["reason"] else row["verdict"]
+        return row["verdict"]
     factor = f", {row['load_factor']} times its weight" if row["load_factor"] else ""
     return f"{row['verdict']}: {100.0 * float(row['utilisation']):.0f} % used{factor}"
 

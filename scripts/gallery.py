@@ -78,7 +78,7 @@ HEADER_2019 = """\
 
 Every demolition of the [2019 report](from_2019.md), with its settings or its bare charges. In most of them one breaking
 force holds everything, and some bridges stand only because they sleep until they are hit: what these show of the model
-of 2019 says little of a bridge of today.
+of 2019 says little of a bridge of today. A demolition of today is planned with bars, bearings and drilled charges.
 
 {table}
 
@@ -243,12 +243,10 @@ def title(path: Path) -> str:
 
 def section(path: Path, seconds: float | None) -> str:
     """Return the section of an example: its title, its pictures, its words and how long it takes."""
-    took = [] if seconds is None else [f"Takes {rounded(seconds)} s."]
-    file = f"[{path.name}]({link(path)})"
-    picture = f"![{title(path)}: at the start, at the decisive moment, at the end](pictures/gallery/{name(path)}.jpg)"
-    return (
-        "\n\n".join([f"## {title(path)}", picture, *paragraphs(path), " ".join([f"Scenario: {file}.", *took])]) + "\n"
-    )
+    took = "" if seconds is None else f", {rounded(seconds)} s"
+    file = f"[{path.name}]({link(path)}){took}."
+    picture = f"![{title(path)}](pictures/gallery/{name(path)}.jpg)"
+    return "\n\n".join([f"## {title(path)}", picture, *paragraphs(path), file]) + "\n"
 
 
 def paragraphs(path: Path) -> list[str]:

@@ -17,10 +17,9 @@ def test_every_example_tells_what_there_is_to_see_what_is_assumed_and_how_far_to
     assert [part for part in PARTS if any(heading.startswith(part) for heading in told)] == list(PARTS)
 
 
-@pytest.mark.parametrize("path", OF_2019, ids=lambda path: path.stem)
-def test_those_of_2019_say_that_a_demolition_of_today_is_planned_with_others(path):
-    first = gallery.paragraphs(path)[0]
-    assert "2019 report" in first and "a demolition of today is planned with bars" in first
+def test_those_of_2019_say_that_a_demolition_of_today_is_planned_with_others():
+    assert "A demolition of today is planned with bars" in " ".join(gallery.HEADER_2019.split())
+    assert [path.stem for path in OF_2019 if "2019 report" not in gallery.paragraphs(path)[0]] == []
 
 
 def test_heads_of_examples_have_five_lines():

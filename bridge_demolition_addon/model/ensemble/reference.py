@@ -130,8 +130,14 @@ _INTRODUCTION = """\
 <!-- Made by `python -m bridge_demolition_addon.model.ensemble.reference docs`: change the code instead. -->
 
 {named} file is a [TOML](https://toml.io) file, which `bda {command} FILE --output DIR` runs; see {page}. Start from
-[{example_name}](../examples/{example}). A key that is not listed here is refused, and so is a value outside its limits.
+[{example_name}](../examples/{example}). A key that is not listed is refused, and so is a value outside its limits.
 """
+
+_OF_STUDIES = """\
+`[[vary]]` and `[[criteria]]` are those of [study files](study_file.md#vary).
+"""
+_SHARED = ("vary", "criteria")
+"""Tables of all three files, which the page of studies has."""
 
 
 def reference_pages() -> dict[str, str]:
@@ -145,8 +151,10 @@ def reference_pages() -> dict[str, str]:
                 page=link,
                 example=example,
                 example_name=Path(example).name,
-            ),
+            )
+            + ("" if settings is StudySettings else _OF_STUDIES),
             settings,
+            () if settings is StudySettings else _SHARED,
         )
         for page, (settings, name, named, link, example) in _PAGES.items()
     }

@@ -5,7 +5,7 @@
 
 import re
 import sys
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import Field
 from pathlib import Path
 
@@ -78,12 +78,17 @@ def scenario_reference() -> str:
     return reference(INTRODUCTION, Scenario)
 
 
-def reference(introduction: str, root: type[Table]) -> str:
-    """Return every table and key of a file that holds a table, after an introduction, in Markdown."""
-    return "\n".join([introduction, *_section(root, required=True)])
+def reference(introduction: str, root: type[Table], elsewhere: Collection[str] = ()) -> str:
+    """Return every table and key of a file that holds a table, after an introduction, in Markdown.
+
+    Tables whose names are in `elsewhere` stand on another page, and are left out.
+    """
+    return "\n".join([introduction, *_section(root, elsewhere, required=True)])
 
 
-def _section(table_class: type[Table], *, required: bool, many: bool = False) -> Iterator[str]:
+def _section(
+    table_class: type[Table], elsewhere: Collection[str], *, required: bool, many: bool = False
+) -> Iterator[str]:
     yield f"## [[{table_class.table}]]" if many else f"## [{table_class.table}]"
     yield ""
     yield meaning(table_class) + (" Required." if required else " As often as needed." if many else "")
@@ -91,7 +96,9 @@ def _section(table_class: type[Table], *, required: bool, many: bool = False) ->
     if rows := list(map(_row, key_fields(table_class))):
         yield from ("| Key | Value | Default | Meaning |", "| --- | --- | --- | --- |", *rows, "")
     for item in subtable_fields(table_class):
-        yield from _section(given(subtable_class(item)), required=is_required(item), many=holds_many(item))
+        inner = given(subtable_class(item))
+        if inner.table not in elsewhere:
+            yield from _section(inner, elsewhere, required=is_required(item), many=holds_many(item))
 
 
 def _row(item: Field) -> str:
