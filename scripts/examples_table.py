@@ -73,9 +73,10 @@ NOW, OF_2019 = (
     """
 ## The demolitions of 2019
 
-With the settings or the bare charges of the [2019 report](from_2019.md). Methods without faces of shards have no
-stresses, so whether a bridge stands is *unknown*; it stands in a run as long as it sleeps, as in 2019. Runs are cut short where a time is given. They
-are of a version that counted as made by the solver what contacts only [give back](report.md#what-the-numbers-mean).
+With the settings or the bare charges of the [2019 report](../examples/report_2019/README.md). Methods without faces of
+shards have no stresses, so whether a bridge stands is *unknown*; it stands in a run as long as it sleeps, as in 2019.
+Runs are cut short where a time is given. They are of a version that counted as made by the solver what contacts only
+[give back](report.md#what-the-numbers-mean).
 """,
 )
 

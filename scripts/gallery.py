@@ -67,18 +67,15 @@ First come bridges as they are: with bars, bearings and elastic connections. Pla
 
 {table}
 
-A variant needs only the values that differ from another scenario; see `based_on` in [scenario files](scenario.md).
-There are also examples of [studies](../examples/studies), [searches](../examples/searches),
-[optimisations](../examples/optimisations), [stages](../examples/stages), [drilled charges](../examples/drilled) and
-[ground motion](../examples/ground_motion).
+Examples of studies, searches, optimisations and others stand [at the end](#other-examples).
 """
 
 HEADER_2019 = """\
 ## The 2019 report
 
-Every demolition of the [2019 report](from_2019.md), with its settings or its bare charges. In most of them one breaking
-force holds everything, and some bridges stand only because they sleep until they are hit: what these show of the model
-of 2019 says little of a bridge of today. A demolition of today is planned with bars, bearings and drilled charges.
+Every demolition of the [2019 report](../examples/report_2019/README.md), with its settings or its bare charges. In most
+one breaking force holds everything, and some bridges stand only because they sleep until they are hit: these say little
+of a bridge of today. A demolition of today is planned with bars, bearings and drilled charges.
 
 {table}
 
@@ -91,10 +88,8 @@ STUDY = """\
 
 ![Plan of the study with its limit, and how many of its runs reach how far](pictures/study_i235_one_span.png)
 
-93 runs of the first of these examples, each with other shards, another height and place of the ball, another strength
-and another mass. Shaded is where the probability of debris may be above 5 % and 50 %. In 91 of them shards still moved
-at the end, so that the limit of 7.2 m may be too small. All its runs are in
-[a table](data/ensembles/i235_one_span.csv), and `scripts/ensembles` makes it again.
+93 runs of the first of these examples. Shaded is where the probability of debris may be above 5 % and 50 %. All runs
+are in [a table](data/ensembles/i235_one_span.csv).
 
 Study: [i235_one_span.toml](../examples/studies/i235_one_span.toml).
 """

@@ -257,8 +257,8 @@ def _section(outcome: Outcome) -> list[str]:
         "",
         f"![{case.title}](pictures/validation/{case.name}.png)",
         "",
-        f"`scripts/validate {case.name} --output DIR` repeats it in {max(5, 5 * round(seconds / 5)):.0f} s (version "
-        f"`{outcome.version}`).",
+        f"`scripts/validate {case.name} --output DIR`: {max(5, 5 * round(seconds / 5)):.0f} s, version "
+        f"`{outcome.version}`.",
         "",
     ]
 

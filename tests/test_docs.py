@@ -10,7 +10,7 @@ from support.checkout import ROOT
 PACKAGE = ROOT / "bridge_demolition_addon"
 BESIDE_THE_CODE = [
     page
-    for folder in (PACKAGE, *(ROOT / name for name in ("core", "scripts", "tests", "validation")))
+    for folder in (PACKAGE, *(ROOT / name for name in ("core", "examples", "scripts", "tests", "validation")))
     for page in sorted(folder.rglob("README.md"))
 ]
 DOCUMENTS = [*sorted(ROOT.glob("*.md")), *sorted((ROOT / "docs").glob("*.md")), *BESIDE_THE_CODE]
@@ -110,3 +110,9 @@ def test_every_row_of_the_architecture_names_what_its_files_define():
         modules = [PACKAGE / path for path in re.findall(r"\]\(([^)]+\.py)\)", row)]
         for name in re.findall(r"`(\w+)`", row):
             assert any(defines(module, name) for module in modules), f"{name}: {row}"
+
+
+def test_documents_can_be_read():
+    """Words of the site's own pages and the README, without the bars of tables: 90 000 are what was asked for."""
+    pages = [ROOT / "README.md", *(ROOT / "docs").glob("*.md")]
+    assert sum(len(re.findall(r"[^\s|]*\w[^\s|]*", page.read_text(encoding="utf-8"))) for page in pages) <= 90_000

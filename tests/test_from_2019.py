@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What ``docs/from_2019.md`` says of the report of 2019 is complete, and what it says of the present is there."""
+"""What the README of its examples says of the report of 2019 is complete, and of the present it is there."""
 
 import csv
 import re
@@ -10,7 +10,7 @@ import pytest
 from support.checkout import ROOT
 from support.scenarios import I235
 
-TEXT = (ROOT / "docs" / "from_2019.md").read_text(encoding="utf-8")
+TEXT = (ROOT / "examples" / "report_2019" / "README.md").read_text(encoding="utf-8")
 PACKAGE = ROOT / "bridge_demolition_addon"
 CODE = (PACKAGE / "README.md").read_text(encoding="utf-8")
 """Has what its code has become."""
@@ -129,7 +129,7 @@ def test_every_key_is_one_and_its_link_leads_to_its_table():
     assert given
     for key, value in given:
         assert checked(keys[key][1], key, value) == value
-    links = re.findall(r"\[`([a-z_.0-9]+)`\]\(scenario\.md#(\w+)\)", TEXT)
+    links = re.findall(r"\[`([a-z_.0-9]+)`\]\([./]*docs/scenario\.md#(\w+)\)", TEXT)
     assert len(links) > 15
     assert [link for link in links if link[1] != keys[link[0]][0].replace(".", "")] == []
 

@@ -14,7 +14,11 @@ PACKAGE = ROOT / "bridge_demolition_addon"
 PAGES = [
     *(ROOT / f"{name}.md" for name in ("README", "CHANGELOG", "CONTRIBUTING")),
     *sorted((ROOT / "docs").glob("*.md")),
-    *(page for name in ("core", "scripts", "tests", "validation") for page in sorted((ROOT / name).rglob("README.md"))),
+    *(
+        page
+        for name in ("core", "examples", "scripts", "tests", "validation")
+        for page in sorted((ROOT / name).rglob("README.md"))
+    ),
     *sorted(PACKAGE.rglob("README.md")),
 ]
 EXAMPLES = sorted((ROOT / "examples").rglob("*.toml"))

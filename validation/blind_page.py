@@ -59,8 +59,8 @@ def _of_case(case: BlindCase) -> list[str]:
         *(_row(*pair) for pair in zip(forecast.foreseen, measured, strict=True)),
         "",
         *_outcome(outcome),
-        f"Made on {forecast.made} with version `{forecast.version}`. `scripts/blind_forecast {case.name} --again "
-        "--output DIR` prints what it would be now, and leaves its scenarios in `DIR`.",
+        f"Made on {forecast.made} with version `{forecast.version}`; `scripts/blind_forecast {case.name} --again "
+        "--output DIR` prints what it would be now.",
         "",
     ]
 

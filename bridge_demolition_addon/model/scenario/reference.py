@@ -31,8 +31,8 @@ INTRODUCTION = """\
 A scenario is a [TOML](https://toml.io) file. `bda check FILE` reads it and prints what follows from it, such as
 masses. `bda run FILE` runs it. Start from one of the [examples](../examples). Every key has its unit in its name. A key
 that is not listed here is refused, and so is a value outside its limits. A key without a default may be left out, and
-so may a table that is not required. No number is larger than any bridge has, such
-as 100 m of a thickness, 1000 m of a width, 1e8 m of anything else, 1e9 kg, 1e13 N or 1e6 s.
+so may a table that is not required; one in double brackets is given as often as needed. No number is larger
+than any bridge has, such as 100 m of a thickness, 1000 m of a width, 1e8 m of anything else, 1e9 kg, 1e13 N or 1e6 s.
 
 x runs along the road, with 0 at the axis of the first pier; y across it, with 0 in its middle; z up, with 0 at the
 ground. The deck's top is as high as a pier, a pier cap, the girders or the box girder and the deck's slab together.
@@ -91,7 +91,7 @@ def _section(
 ) -> Iterator[str]:
     yield f"## [[{table_class.table}]]" if many else f"## [{table_class.table}]"
     yield ""
-    yield meaning(table_class) + (" Required." if required else " As often as needed." if many else "")
+    yield meaning(table_class) + (" Required." if required else "")
     yield ""
     if rows := list(map(_row, key_fields(table_class))):
         yield from ("| Key | Value | Default | Meaning |", "| --- | --- | --- | --- |", *rows, "")

@@ -10,7 +10,7 @@ from bridge_demolition_addon.ui.registration import classes
 from bridge_demolition_addon.ui.scenario.key_tooltips import TYPICAL, typical_value
 from bridge_demolition_addon.ui.scenario.prop import all_tables, group_name, registered_group, shown_keys
 
-FROM_2019 = (ROOT / "docs" / "from_2019.md").read_text(encoding="utf-8")
+FROM_2019 = (ROOT / "examples" / "report_2019" / "README.md").read_text(encoding="utf-8")
 NUMBERS = ("FLOAT", "INT")
 
 
