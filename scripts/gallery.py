@@ -6,6 +6,7 @@ names of examples only those are run again; all other texts and times stay. With
 taken again of the runs that are there.
 """
 
+import csv
 import json
 import subprocess
 import sys
@@ -17,12 +18,27 @@ from pathlib import Path
 
 from PIL import Image
 
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+sys.path.insert(1, str(Path(__file__).resolve().parent.parent / "tests"))
+
+from support.checkout import SEEDED as FILES
+from support.example_runs import MEASURED_S
+
 ROOT = Path(__file__).resolve().parent.parent
+SEEDED = {path: name for name, path in FILES.items()}
+"""Names of examples that are run with many seeds, by their files."""
+
+SMALL_M, SMALL_SHARE = 0.1, 0.02
+"""Below these a digit more is shown."""
+
 EXAMPLES, RUNS = ROOT / "examples", ROOT / "runs" / "gallery"
 REPORT_2019 = EXAMPLES / "report_2019"
 DRILLED = EXAMPLES / "drilled" / "two_spans.toml"
 PAGE, PICTURES = ROOT / "docs" / "gallery.md", ROOT / "docs" / "pictures" / "gallery"
 TIMES = PICTURES / "times.json"
+SEEDS = ROOT / "docs" / "data" / "seeds"
+"""Runs of examples that differ in nothing but their seed, which `scripts/seeds` measured."""
+
 """Seconds that each run took, kept so that a page can be written without all of them."""
 
 REALISTIC_PICTURES = PICTURES / "realistic.json"
@@ -58,9 +74,9 @@ Every example is a [scenario file](scenario.md) to start from. Run it with `bda 
 Add `--report` for a [report](report.md). The pictures show the start, the impact (or the blast, or the largest force)
 and the end of one run.
 {looks}
-[One run is one possible outcome](accuracy.md#one-run-is-one-possible-outcome): with another
-seed single pieces end elsewhere. Times are the most that a run takes without pictures on a machine with two cores and
-nothing else to do: for all examples together {minutes} minutes.
+[One run is one possible outcome](accuracy.md#one-run-is-one-possible-outcome): the last line has least and largest over
+runs that differ in nothing but their seed; *solver* is what Bullet's solver made of the dissipated energy. Times are
+the most that a run takes without pictures on two idle cores: for all examples together {minutes} minutes.
 
 First come bridges as they are: with bars, bearings and elastic connections. Plan a demolition with these. Then come
 [the demolitions of the 2019 report](#the-2019-report).
@@ -205,7 +221,9 @@ def others() -> str:
     sections = []
     for path in (EXAMPLES / file for file in texts() if file not in shown):
         heading = f"### {path.relative_to(ROOT).as_posix()}"
-        sections.append("\n\n".join([heading, *paragraphs(path), f"File: [{path.name}]({link(path)})."]))
+        sections.append(
+            "\n\n".join([heading, *paragraphs(path), " ".join([*of_seeds(path), f"[{path.name}]({link(path)})."])])
+        )
     return "\n\n".join(["## Other examples", *sections]) + "\n"
 
 
@@ -241,7 +259,37 @@ def section(path: Path, seconds: float | None) -> str:
     took = "" if seconds is None else f", {rounded(seconds)} s"
     file = f"[{path.name}]({link(path)}){took}."
     picture = f"![{title(path)}](pictures/gallery/{name(path)}.jpg)"
-    return "\n\n".join([f"## {title(path)}", picture, *paragraphs(path), file]) + "\n"
+    return "\n\n".join([f"## {title(path)}", picture, *paragraphs(path), " ".join([*of_seeds(path), file])]) + "\n"
+
+
+def of_seeds(path: Path) -> list[str]:
+    """Return how far debris goes, what breaks and what the solver makes in runs of an example, where they were made."""
+    table = SEEDS / f"{SEEDED.get(path, '')}.csv"
+    if not table.is_file():
+        return []
+    with table.open(encoding="utf-8", newline="") as file:
+        runs = list(csv.DictReader(file))
+    most, farthest, broken, made = (
+        [float(run[column] or 0.0) for run in runs]
+        for column in ("throw_95_percent_m", "largest_throw_m", "broken_connections", "made_share")
+    )
+    until = f", until {MEASURED_S[SEEDED[path]]:g} s" if SEEDED[path] in MEASURED_S else ""
+    return [
+        f"*{len(runs)} seeds{until}*: 95 % of the shards within {between(most)}, the farthest {between(farthest)}; "
+        f"{min(broken):.0f} to {max(broken):.0f} connections break; solver {shares(made)}."
+    ]
+
+
+def between(distances_m: list[float]) -> str:
+    """Return least and largest of some distances, in cm where they are small."""
+    factor, unit = (100.0, "cm") if max(distances_m) < SMALL_M else (1.0, "m")
+    return f"{factor * min(distances_m):.1f} to {factor * max(distances_m):.1f} {unit}"
+
+
+def shares(made: list[float]) -> str:
+    """Return least and largest of some shares in percent, with a digit after the point where they are small."""
+    digits = 1 if max(made) < SMALL_SHARE else 0
+    return f"{100.0 * min(made):.{digits}f} to {100.0 * max(made):.{digits}f} %"
 
 
 def paragraphs(path: Path) -> list[str]:

@@ -38,7 +38,7 @@ FEATURES = {
 
 ELSEWHERE = {"bridge", "geometry", "ground", "fracture", "materials", "geometry_reinforcement", "connections"} | {
     "supports", "shards", "contacts", "blast", "loads", "recording", "pictures", "report", "zones", "exclusion",
-    "site", "neighbours", "time",
+    "site", "neighbours", "vibration_laws", "time",
 }  # fmt: skip
 """Tables that no page would call left out."""
 

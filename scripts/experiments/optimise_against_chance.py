@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Optimise noisy functions whose optimum is known, and as many candidates by chance: the table in docs/optimise.md.
+"""Optimise noisy functions whose optimum is known, and as many candidates by chance: the table in README.md.
 
 Each function is a bowl of 5 m at best and 20 m more for each unit² from there, with a scatter of 1 m from run to run,
 in which runs fail where the first quantity is small. Chance gets the same three rounds. It takes two minutes.

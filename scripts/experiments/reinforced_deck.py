@@ -10,7 +10,7 @@ deck's mass goes along after a plastic impact.
 
 Usage: reinforced_deck.py [MOST_SEEDS] writes docs/data/reinforced_deck.csv, and goes on where it stopped;
 reinforced_deck.py --one BALL_KG SHARDS SEED FINER RUPTURE_M BARS prints one row; reinforced_deck.py --table prints
-what docs/reinforcement.md says of all.
+what README.md says of all.
 """
 
 from __future__ import annotations

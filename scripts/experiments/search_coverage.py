@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How often limits of searches hold, over simulated searches whose truth is known, for docs/search.md.
+"""How often limits of searches hold, over simulated searches whose truth is known, for README.md.
 
 Usage: search_coverage.py [SEARCHES] prints a table: 500 of each kind by default.
 """
