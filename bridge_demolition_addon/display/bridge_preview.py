@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 
 import numpy as np
 
 from ..engineering.geometry.mesh import TriangleMesh, plane_cuts, triangle_areas_and_normals
 from ..engineering.geometry.vectors import dot
-from ..model.bridge import deck_top
+from ..model.bridge import deck_top_at
 from ..model.bridge.member import Member, own_axes
 from ..model.bridge.substructure import substructure
 from ..model.bridge.superstructure import superstructure
@@ -33,16 +34,17 @@ def bridge_edges(bridge: Bridge) -> np.ndarray:
     return np.concatenate([sharp_edges(member.solid) for member in members])
 
 
-def ball_lines(ball: Ball, surface_m: float | None) -> np.ndarray:
+def ball_lines(ball: Ball, surface: Callable[[float, float], float] | None) -> np.ndarray:
     """Return a ball before each of its drops, with its way and its target, as lines (2 k, 3) float, m.
 
-    `surface_m` is the height of what it falls on; where that is not known, only a ball on a cable is drawn.
+    `surface` says how high what it falls on is, m; where that is not known, only a ball on a cable is drawn.
     """
     parts = [np.zeros((0, 3))]
     if ball.cable:
         parts += [*_sphere(ball.cable.start_m, ball.diameter_m), *_swing(ball.cable)]
-    elif surface_m is not None:
+    elif surface is not None:
         for drop in ball.drops:
+            surface_m = surface(*given(drop.target_m))
             target = np.array((*given(drop.target_m), surface_m))
             height = surface_m + given(drop.drop_height_m) + ball.diameter_m / 2.0
             start = (target[0], target[1], height)
@@ -59,7 +61,7 @@ def outline(bridge: Bridge | None, ball: Ball | None, *, is_all: bool = True) ->
     if bridge:
         parts.append(bridge_edges(bridge))
     if ball:
-        parts.append(ball_lines(ball, deck_top(bridge) if bridge and is_all else None))
+        parts.append(ball_lines(ball, partial(deck_top_at, bridge) if bridge and is_all else None))
     return np.concatenate(parts)
 
 
@@ -129,9 +131,11 @@ def _of_layer(layer: BarLayer, member: Member) -> Iterator[np.ndarray]:
         ends = _ends_at(cuts, along, beside, float(position))
         begin, end = max(min(ends), layer.ends_m[0]), min(max(ends), layer.ends_m[1])
         if begin < end:
-            line = np.zeros((2, 3))
-            line[:, along], line[:, across], line[:, beside] = (begin, end), level, position
-            yield member.with_skew(line)
+            bends = member.line.stations_m if member.line and along == 0 else np.zeros(0)
+            places = np.array([begin, *bends[(bends > begin) & (bends < end)], end])
+            line = np.zeros((len(places), 3))
+            line[:, along], line[:, across], line[:, beside] = places, level, position
+            yield np.repeat(member.with_skew(line), 2, axis=0)[1:-1]
 
 
 def _in_own_axes(layer: BarLayer, member: Member) -> Iterator[np.ndarray]:

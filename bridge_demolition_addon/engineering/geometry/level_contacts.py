@@ -90,8 +90,8 @@ def level_contacts(above: TriangleMesh, below: TriangleMesh) -> list[LevelContac
         return []
     pieces = [_in_plan(upper[one]) ^ _in_plan(lower[other]) for one, other in zip(first, second, strict=True)]
     islands = united([piece for piece in pieces if piece.area() > 0.0]).decompose()
-    contacts = [_contact(outlines(island), upper[np.unique(first)]) for island in islands]
-    contacts = [contact for contact in contacts if contact.area_m2 > _SMALLEST_M2]
+    large = [island for island in islands if island.area() > _SMALLEST_M2]  # of slivers no outline may be left
+    contacts = [_contact(outlines(island), upper[np.unique(first)]) for island in large]
     return sorted(contacts, key=lambda contact: contact.middle_m.tolist())
 
 

@@ -3,7 +3,7 @@
 x runs along the road from the axis of the first pier, y across it from its middle, z up from the ground.
 """
 
-from .layout import deck_top, deck_underside
+from ..scenario.bridge_checks import deck_top, deck_top_at, deck_underside
 from .parametric import bridge_density, bridge_members
 
-__all__ = ["bridge_density", "bridge_members", "deck_top", "deck_underside"]
+__all__ = ["bridge_density", "bridge_members", "deck_top", "deck_top_at", "deck_underside"]

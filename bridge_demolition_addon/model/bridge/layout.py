@@ -14,34 +14,19 @@ from ...engineering.geometry.vectors import transformed, turn_in_plane
 from ...errors import GeometryError
 from ..actions import Fact
 from ..scenario import Bridge
-from ..scenario.bridge_checks import arch_axis, leg_axes_m
-from ..schema import given
+from ..scenario.bridge_checks import (
+    SHORTEST_SUPPORT_M,
+    arch_axis,
+    axis_line,
+    deck_top_at,
+    leg_axes_m,
+    road_line,
+)
 
 
 def pier_axes(bridge: Bridge) -> np.ndarray:
     """Positions along the road of the axes of piers and abutments, in the middle of the road, (spans + 1,) in m."""
     return np.concatenate(([0.0], np.cumsum(bridge.span_lengths_m)))
-
-
-def deck_underside(bridge: Bridge) -> float:
-    """Height above the ground of what lies on piers and abutments, m: slab, girders or box girder."""
-    if bridge.frame:
-        return bridge.frame.clear_height_m
-    if bridge.piers is None:
-        return given(given(bridge.abutments).height_m)
-    cap_height = bridge.pier_caps.height_m if bridge.pier_caps else 0.0
-    return bridge.piers.height_m + cap_height
-
-
-def slab_underside(bridge: Bridge) -> float:
-    """Height of the slab's underside above the ground, m: higher than that of the girders or the box it lies on."""
-    below = bridge.girders or bridge.box_girder
-    return deck_underside(bridge) + (below.depth_m if below else 0.0)
-
-
-def deck_top(bridge: Bridge) -> float:
-    """Height of the road surface above the ground, m."""
-    return slab_underside(bridge) + bridge.deck.thickness_m
 
 
 def deck_ends(bridge: Bridge) -> list[tuple[float, float]]:
@@ -65,7 +50,9 @@ def bridge_facts(bridge: Bridge, *, is_flat: bool) -> Iterator[Fact]:
     if bridge.frame and len(leg_axes_m(bridge)) > 1:
         clear = (after - before - bridge.frame.leg_thickness_m for before, after in pairwise(leg_axes_m(bridge)))
         yield "frame", f"clear {' + '.join(f'{span:.2f}' for span in clear)} m at the deck"
-    yield "deck top above ground" if is_flat else "height of deck top", f"{deck_top(bridge):.2f} m"
+    tops = [deck_top_at(bridge, along, 0.0) for along in pier_axes(bridge).tolist()]
+    shown = dict.fromkeys(f"{top:.2f}" for top in (min(tops), max(tops)))
+    yield "deck top above ground" if is_flat else "height of deck top", f"{' to '.join(shown)} m"
 
 
 def skewed(bridge: Bridge, solid: TriangleMesh) -> TriangleMesh:
@@ -77,14 +64,61 @@ def skewed(bridge: Bridge, solid: TriangleMesh) -> TriangleMesh:
     return replace(solid, vertices=vertices)
 
 
-def without_shear(bridge: Bridge) -> tuple[tuple[float, float], tuple[float, float]]:
-    """Return the rows that take positions on plan of what is sheared by the skew back to where it was."""
-    return (1.0, -bridge.shift_across), (0.0, 1.0)
+def placed(bridge: Bridge, solid: TriangleMesh) -> TriangleMesh:
+    """Return what was made straight, square and level on the line of the road."""
+    line = road_line(bridge)
+    return skewed(bridge, solid) if line is None else line.carried(solid)
 
 
-def without_turn(bridge: Bridge) -> tuple[tuple[float, float], tuple[float, float]]:
+def seated(bridge: Bridge, axis_m: float, solid: TriangleMesh, foot_m: float | None = None) -> TriangleMesh:
+    """Return what carries the deck at an axis, skewed already, with its top in the plane of the deck there.
+
+    What has a foot is level there, at that height; else its underside follows too.
+    """
+    line = axis_line(bridge, axis_m)
+    if line is None:
+        return solid
+    own = solid.vertices.copy()
+    own[:, 0] -= own[:, 1] * bridge.shift_across
+    vertices = line.to_world(own)
+    if foot_m is not None:
+        vertices[solid.vertices[:, 2] == solid.vertices[:, 2].min(), 2] = foot_m
+    return replace(solid, vertices=vertices)
+
+
+def seat_m(bridge: Bridge, axis_m: float, across_m: float, height_m: float) -> tuple[float, float, float]:
+    """Return where the middle of the top of what carries the deck at an axis is, for a height at the first axis."""
+    line = axis_line(bridge, axis_m)
+    if line is None:
+        return axis_m + across_m * bridge.shift_across, across_m, height_m
+    x, y, z = line.to_world(np.array([axis_m, across_m, height_m])).tolist()
+    return x, y, z
+
+
+Rows = tuple[tuple[float, float], tuple[float, float]]
+
+
+def without_shear(bridge: Bridge, axis_m: float = 0.0) -> Rows:
+    """Return the rows that take positions on plan of what is sheared by the skew back to where it was.
+
+    On a curve, which has no skew, they take it back from the heading of its axis, but for where it stands.
+    """
+    turn = _heading_rad(bridge, axis_m)
+    return _turned_back(turn) if turn else ((1.0, -bridge.shift_across), (0.0, 1.0))
+
+
+def without_turn(bridge: Bridge, axis_m: float) -> Rows:
     """Return the rows that take positions on plan of what is rotated with its axis back, but for where it stands."""
-    (first, second), (third, fourth) = turn_in_plane(math.radians(bridge.skew_deg)).tolist()
+    return _turned_back(_heading_rad(bridge, axis_m) - math.radians(bridge.skew_deg))
+
+
+def _heading_rad(bridge: Bridge, axis_m: float) -> float:
+    line = axis_line(bridge, axis_m)
+    return 0.0 if line is None else line.heading_rad
+
+
+def _turned_back(angle_rad: float) -> Rows:
+    (first, second), (third, fourth) = turn_in_plane(-angle_rad).tolist()
     return (first, second), (third, fourth)
 
 
@@ -102,27 +136,26 @@ def turned_with_axis(bridge: Bridge, solid: TriangleMesh, along: float, across: 
 GroundHeight = Callable[[str, float, float], float]
 """How high the ground is, m, under a member of a name with its middle at x and y."""
 
-_SHORTEST_M = 0.1
-"""Least height of what stands on the ground."""
-
 
 def level_ground(_name: str, _x_m: float, _y_m: float) -> float:
     """Height of ground that is flat, m."""
     return 0.0
 
 
-def foot_m(name: str, x_m: float, y_m: float, top_m: float, ground: GroundHeight) -> float:
-    """Return the height of the ground under a member, m.
+def foot_m(name: str, top_m: tuple[float, float, float], ground: GroundHeight, *, is_level: bool = True) -> float:
+    """Return the height of the ground under a member with the middle of its top at a position, m.
 
     Raises
     ------
     GeometryError
         The ground is above its top, or nearly so.
     """
-    foot = ground(name, x_m, y_m)
-    if foot > max(top_m - _SHORTEST_M, 0.0):  # on level ground the keys say how high a pier has to be
+    x, y, height = top_m
+    foot, highest = ground(name, x, y), height - SHORTEST_SUPPORT_M
+    # Of a level bridge on level ground the keys say how high a pier has to be.
+    if foot > (max(highest, 0.0) if is_level else highest):
         raise GeometryError(
-            f"The ground is at {foot:.2f} m under {name}, whose top is at {top_m:.2f} m; make the bridge "
+            f"The ground is at {foot:.2f} m under {name}, whose top is at {height:.2f} m; make the bridge "
             "higher, or the ground lower there: ground.profile_m, or ground.origin of a file."
         )
     return foot

@@ -11,6 +11,7 @@ import numpy as np
 
 from ...engineering.geometry.mesh import TriangleMesh, triangle_areas_and_normals
 from ...engineering.geometry.own_axes import OwnAxes, lying_axes, standing_axes
+from ...engineering.geometry.road_lines import RoadLine
 from ...engineering.geometry.vectors import transformed
 from ...engineering.steelwork.bars import SteelBar
 from ...engineering.units import mass_text, volume_text
@@ -58,6 +59,7 @@ class Member:
     density_kg_m3: float | None = None  # None as long as it is not known
     parts: tuple[TriangleMesh, ...] = ()
     unskewed: Rows = SQUARE  # by which positions on plan are as they would be without skew
+    line: RoadLine | None = None  # that it was made for, straight, square and level; its skew included
     steel: SteelPart | None = None  # of steelwork alone, which is cut and connected by itself
     keeps_parts: bool = False  # whether each of its parts takes a shard at least, as of a deck on pieces of girders
     is_in_pieces: bool = False  # the same of what is cut into its parts first, as an arch
@@ -70,11 +72,13 @@ class Member:
         return self.solid.volume
 
     def without_skew(self, points_m: np.ndarray) -> np.ndarray:
-        """Return positions (..., 3) as they would be in the member if it stood square to the road."""
-        return self._mapped(points_m, self.unskewed)
+        """Return positions (..., 3) as they would be in the member if it stood square to a straight, level road."""
+        return self.line.from_world(points_m) if self.line else self._mapped(points_m, self.unskewed)
 
     def with_skew(self, points_m: np.ndarray) -> np.ndarray:
         """Return positions (..., 3) in the member of what `without_skew` gave."""
+        if self.line:
+            return self.line.to_world(points_m)
         (a, b), (c, d) = self.unskewed
         whole = a * d - b * c
         return self._mapped(points_m, ((d / whole, -b / whole), (-c / whole, a / whole)))

@@ -13,9 +13,10 @@ from ...engineering.geometry.solids import union
 from ...errors import ScenarioError
 from ..scenario import Bridge
 from ..scenario.arch import ARCH_KIND, BLOCK_KIND, Arch, RigidFrame
+from ..scenario.bridge_checks import deck_top, deck_underside, slab_underside
 from ..scenario.bridge_parts import Abutments, Deck, Girders, PierCaps, Piers
 from ..schema import given
-from .layout import GroundHeight, deck_top, deck_underside, level_ground, slab_underside
+from .layout import GroundHeight, level_ground
 from .member import Member
 from .substructure import LEG, substructure
 from .superstructure import superstructure

@@ -11,10 +11,10 @@ from ...engineering.geometry.overlap import separated
 from ...engineering.geometry.vectors import cross_2d, length
 from ...errors import GeometryError, ScenarioError
 from ..scenario import Scenario
-from ..schema import given
+from ..schema import FARTHEST_M, SHORTEST_LENGTH_M, given
 from ..terrain.built import check_under
 from ..terrain.placed import Terrain, terrain_of
-from . import bridge_members, deck_top
+from . import bridge_members, deck_top_at
 from .member import Member
 from .mesh_files import geometry_members
 from .steelwork import steelwork_members
@@ -55,7 +55,7 @@ def surface_height(scenario: Scenario, members: Sequence[Member], position_m: tu
     Of a bridge alone it is that of the deck, which joints do not interrupt.
     """
     if scenario.bridge and not scenario.geometry and not scenario.steelwork:
-        return deck_top(scenario.bridge)
+        return deck_top_at(scenario.bridge, *position_m)
     corners = np.concatenate([member.solid.corners for member in members])
     heights = _heights_above(corners, np.asarray(position_m, dtype=float))
     if not len(heights):
@@ -123,8 +123,11 @@ def _check_names(members: Sequence[Member]) -> None:
 def _bridge_on(terrain: Terrain | None, scenario: Scenario) -> tuple[Member, ...]:
     bridge = given(scenario.weighed_bridge)
     if terrain is None:
-        return bridge_members(bridge)
-    check_under(terrain, [(bridge_member.name, bridge_member.solid) for bridge_member in bridge_members(bridge)])
+        members = bridge_members(bridge)
+        _check_above_ground(members)
+        return members
+    on_plan = bridge_members(bridge, lambda _name, _x_m, _y_m: -FARTHEST_M)
+    check_under(terrain, [(bridge_member.name, bridge_member.solid) for bridge_member in on_plan])
 
     def height(name: str, x_m: float, y_m: float) -> float:
         height_m = float(terrain.heights_at(np.array([[x_m, y_m]]))[0])
@@ -137,6 +140,18 @@ def _bridge_on(terrain: Terrain | None, scenario: Scenario) -> tuple[Member, ...
         return height_m
 
     return bridge_members(bridge, height)
+
+
+def _check_above_ground(members: Sequence[Member]) -> None:
+    """Check that no deck and girder on a line of its own is below level ground."""
+    for member in members:
+        lowest = member.solid.vertices[member.solid.vertices[:, 2].argmin()]
+        if member.line and lowest[2] < SHORTEST_LENGTH_M:
+            raise GeometryError(
+                f"The underside of {member.name} is at {lowest[2]:.2f} m, below the ground at 0, around "
+                f"x = {lowest[0]:.2f} m; make the bridge higher, bridge.alignment flatter, or the ground lower by "
+                "ground.profile_m."
+            )
 
 
 def without_overlap(members: Sequence[Member]) -> PreparedMembers:

@@ -13,16 +13,26 @@ from ...engineering.geometry.solids import box, round_column
 from ...engineering.geometry.vectors import unit
 from ..scenario import Bridge
 from ..scenario.arch import ARCH_KIND, BLOCK_KIND
-from ..scenario.bridge_checks import arch_axis, axes_on_arch_m, leg_axes_m, rib_axes_m, springing_axes_m
+from ..scenario.bridge_checks import (
+    arch_axis,
+    axes_on_arch_m,
+    axis_line,
+    deck_top,
+    deck_underside,
+    leg_axes_m,
+    lower_by_m,
+    rib_axes_m,
+    springing_axes_m,
+)
 from ..scenario.bridge_parts import Abutments, PierCaps
 from ..schema import given
 from .layout import (
     GroundHeight,
-    deck_top,
-    deck_underside,
     foot_m,
     level_ground,
     pier_axes,
+    seat_m,
+    seated,
     skewed,
     turned_with_axis,
     without_shear,
@@ -65,7 +75,7 @@ def deck_profile(bridge: Bridge, begin_m: float, end_m: float) -> RoadProfile:
 def _leg(bridge: Bridge, name: str, top_m: tuple[float, float], lean_m: float, ground: GroundHeight) -> Member:
     frame, (axis, across) = given(bridge.frame), top_m
     half, top = 0.5 * frame.leg_thickness_m, frame.leg_top_m
-    foot = foot_m(name, axis + lean_m, across, top, ground)
+    foot = foot_m(name, (axis + lean_m, across, top), ground)
     at_foot = axis + lean_m
     corners = [(at_foot - half, foot), (at_foot + half, foot), (axis + half, top), (axis - half, top)]
     solid = across_road(np.array(corners), frame.leg_width_m, across)
@@ -112,7 +122,7 @@ def _thrust_block(bridge: Bridge, number: int, section_m: np.ndarray, ground: Gr
     """Return the block behind the first or the last section of the arch, its underside and top (2, 2)."""
     arch, axis, name = given(bridge.arch), springing_axes_m(bridge)[number], f"{BLOCK_KIND} {number + 1}"
     (inside, underside), (top_x, top) = section_m
-    foot = foot_m(name, axis, 0.0, float(underside), ground)
+    foot = foot_m(name, (axis, 0.0, float(underside)), ground)
     outside = inside - arch.block_length_m if number == 0 else inside + arch.block_length_m
     corners = [(outside, foot), (inside, foot), (inside, underside), (top_x, top), (outside, top)]
     width = rib_axes_m(bridge)[-1] - rib_axes_m(bridge)[0] + arch.width_m
@@ -136,13 +146,16 @@ def substructure(bridge: Bridge, ground: GroundHeight = level_ground) -> list[Me
 
 
 def _abutments(bridge: Bridge, abutments: Abutments, axes: tuple[float, float], ground: GroundHeight) -> list[Member]:
-    top, parts = deck_underside(bridge), []
+    parts = []
     for number, axis in enumerate(axes, start=1):
-        name = f"abutment {number}"
-        foot = foot_m(name, axis, 0.0, top, ground)
-        size = (abutments.length_m, abutments.width_m, top - foot)
-        solid = skewed(bridge, box(size, (axis, 0.0, (top + foot) / 2.0)))
-        parts.append(Member(name, "abutment", solid, unskewed=without_shear(bridge)))
+        name, top = f"abutment {number}", deck_underside(bridge) - lower_by_m(bridge, axis)
+        seat = seat_m(bridge, axis, 0.0, top)
+        foot = foot_m(name, seat, ground, is_level=bridge.alignment is None)
+        low = foot + (top - seat[2])
+        size = (abutments.length_m, abutments.width_m, top - low)
+        solid = skewed(bridge, box(size, (axis, 0.0, (top + low) / 2.0)))
+        own = without_shear(bridge, axis)
+        parts.append(Member(name, "abutment", seated(bridge, axis, solid, foot), unskewed=own))
     return parts
 
 
@@ -151,17 +164,18 @@ def _piers(bridge: Bridge, axes: np.ndarray, ground: GroundHeight) -> list[Membe
     for number, axis in enumerate(axes, start=1):
         if bridge.pier_caps:
             cap = _pier_cap(bridge, bridge.pier_caps, axis)
-            parts.append(Member(f"pier {number} cap", "pier cap", cap, unskewed=without_shear(bridge)))
+            own, solid = without_shear(bridge, axis), seated(bridge, axis, cap)
+            parts.append(Member(f"pier {number} cap", "pier cap", solid, unskewed=own, line=axis_line(bridge, axis)))
         parts += _columns(bridge, number, axis, ground)
     return parts
 
 
 def _pier_cap(bridge: Bridge, cap: PierCaps, axis: float) -> TriangleMesh:
-    piers = given(bridge.piers)
+    foot = given(bridge.piers).height_m - lower_by_m(bridge, axis)
     if cap.end_height_m is None:
-        middle = (axis, 0.0, piers.height_m + cap.height_m / 2.0)
+        middle = (axis, 0.0, foot + cap.height_m / 2.0)
         return skewed(bridge, box((cap.length_m, cap.width_m, cap.height_m), middle))
-    half, foot, top = 0.5 * cap.width_m, piers.height_m, piers.height_m + cap.height_m
+    half, top = 0.5 * cap.width_m, foot + cap.height_m
     level, end = bridge.columns_half_width_m, top - cap.end_height_m
     outline = [(-level, foot), (level, foot), (half, end), (half, top), (-half, top), (-half, end)]
     along = across_road(np.array(outline), cap.length_m)
@@ -173,15 +187,17 @@ def _pier_cap(bridge: Bridge, cap: PierCaps, axis: float) -> TriangleMesh:
 def _columns(bridge: Bridge, number: int, axis: float, ground: GroundHeight) -> list[Member]:
     """Columns of one pier, each in the middle of its share of the width that they carry, or its wall."""
     piers = given(bridge.piers)
-    parts = []
+    top, parts = piers.height_m - lower_by_m(bridge, axis), []
     for column in range(piers.columns):
         across = bridge.carried_width_m * ((column + 0.5) / piers.columns - 0.5)
         name = f"pier {number}" if piers.columns == 1 else f"pier {number} column {column + 1}"
-        foot = foot_m(name, axis + across * bridge.shift_across, across, piers.height_m, ground)
-        size = (piers.column_length_m, piers.column_width_m, piers.height_m - foot)
-        middle = (axis, across, (piers.height_m + foot) / 2.0)
+        seat = seat_m(bridge, axis, across, top)
+        foot = foot_m(name, seat, ground, is_level=bridge.alignment is None)
+        low = foot + (top - seat[2])
+        size = (piers.column_length_m, piers.column_width_m, top - low)
+        middle = (axis, across, (top + low) / 2.0)
         upright = round_column(size[0], size[2], middle) if piers.is_round else box(size, middle)
         solid = skewed(bridge, upright) if piers.is_wall else turned_with_axis(bridge, upright, axis, across)
-        unskewed = without_shear(bridge) if piers.is_wall else without_turn(bridge)
-        parts.append(Member(name, "pier", solid, unskewed=unskewed))
+        unskewed = without_shear(bridge, axis) if piers.is_wall else without_turn(bridge, axis)
+        parts.append(Member(name, "pier", seated(bridge, axis, solid, foot), unskewed=unskewed))
     return parts

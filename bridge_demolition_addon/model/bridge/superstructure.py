@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
 from ...engineering.geometry.mesh import TriangleMesh
+from ...engineering.geometry.road_lines import road_prism
 from ...engineering.geometry.solids import box, difference, union
 from ..scenario import Bridge
-from ..schema import given
-from .layout import deck_ends, deck_top, deck_underside, skewed, slab_underside, without_shear
+from ..scenario.bridge_checks import deck_top, deck_underside, road_line, slab_underside
+from ..schema import SHORTEST_LENGTH_M, given
+from .layout import deck_ends, placed, skewed, without_shear
 from .member import Member
 from .substructure import deck_profile
 
@@ -20,13 +22,14 @@ _BEYOND_M = 1.0
 def superstructure(bridge: Bridge) -> list[Member]:
     """Every deck, a box girder with its slab, and every girder."""
     ends = deck_ends(bridge)
-    parts = []
+    parts, line = [], road_line(bridge)
     for number, (begin, end) in enumerate(ends, start=1):
         prefix = f"span {number} " if len(ends) > 1 else ""
         parts.append(_deck(bridge, f"{prefix}deck", begin, end))
         for girder in range(bridge.girders.number if bridge.girders else 0):
-            solid = skewed(bridge, _girder(bridge, begin, end, girder))
-            parts.append(Member(f"{prefix}girder {girder + 1}", "girder", solid, unskewed=without_shear(bridge)))
+            solid = placed(bridge, _girder(bridge, begin, end, girder))
+            own = without_shear(bridge)
+            parts.append(Member(f"{prefix}girder {girder + 1}", "girder", solid, unskewed=own, line=line))
     return parts
 
 
@@ -41,55 +44,111 @@ def _deck(bridge: Bridge, name: str, begin: float, end: float) -> Member:
     if bridge.frame and bridge.frame.is_haunched:
         profile, width = deck_profile(bridge, begin, end), bridge.deck.width_m
         return Member(name, "deck", profile.solid(width), parts=profile.pieces(width), is_in_pieces=True)
+    own, line = without_shear(bridge), road_line(bridge)
     if not bridge.box_girder:
-        slab, strips = skewed(bridge, _slab(bridge, begin, end)), tuple(_strips(bridge, begin, end))
-        return Member(name, "deck", slab, parts=strips, unskewed=without_shear(bridge))
-    plates = (skewed(bridge, plate) for plate in _plates(bridge, begin, end))
-    solid = skewed(bridge, _box_girder(bridge, begin, end))
-    return Member(name, "deck", solid, parts=tuple(plates), unskewed=without_shear(bridge))
+        slab = placed(bridge, _slab(bridge, begin, end))
+        parts = tuple(placed(bridge, strip) for strip in _strips(bridge, begin, end))
+        return Member(name, "deck", slab, parts=parts, unskewed=own, line=line)
+    plates = tuple(placed(bridge, plate) for plate in _plates(bridge, begin, end))
+    return Member(name, "deck", _box_girder(bridge, begin, end), parts=plates, unskewed=own, line=line)
+
+
+def _along_road(
+    bridge: Bridge, size_m: Sequence[float], middle_m: Sequence[float], across_m: Sequence[float] = ()
+) -> TriangleMesh:
+    """Return a box along the road with corners where that bends, and at more positions across it."""
+    (begin, right, low), (end, left, high) = (
+        [middle + side * size for middle, size in zip(middle_m, size_m, strict=True)] for side in (-0.5, 0.5)
+    )
+    bends = _bends(bridge, begin, end)
+    if len(bends) == 2:
+        return box(size_m, middle_m)
+    return road_prism(bends, [right, *across_m, left], [low] * len(bends), [high] * len(bends))
+
+
+def _bends(bridge: Bridge, begin: float, end: float) -> list[float]:
+    """Return the positions along the road from a begin to an end at which what lies there has corners."""
+    line = road_line(bridge)
+    inner = [] if line is None else [place for place in line.stations_m.tolist() if begin < place < end]
+    return [begin, *inner, end]
 
 
 def _slab(bridge: Bridge, begin: float, end: float) -> TriangleMesh:
     deck = bridge.deck
     middle = ((begin + end) / 2.0, 0.0, slab_underside(bridge) + deck.thickness_m / 2.0)
-    return box((end - begin, deck.width_m, deck.thickness_m), middle)
+    return _along_road(bridge, (end - begin, deck.width_m, deck.thickness_m), middle, _slab_edges(bridge)[1:-1])
+
+
+def _slab_edges(bridge: Bridge) -> list[float]:
+    """Return the positions across the road of edges of the slab, its strips and the girders below."""
+    half, below = 0.5 * bridge.deck.width_m, []
+    if bridge.box_girder:
+        outer = 0.5 * bridge.box_girder.width_m
+        below = [-outer, *_cell_edges(bridge), outer]
+    elif bridge.girders:
+        sides = (-0.5 * bridge.girders.width_m, 0.5 * bridge.girders.width_m)
+        below = [middle + side for middle in _girder_axes(bridge) for side in sides]
+    edges = [-half]
+    for edge in sorted([*below, *_strip_edges(bridge)]):
+        if edges[-1] + SHORTEST_LENGTH_M < edge < half - SHORTEST_LENGTH_M:
+            edges.append(edge)
+    return [*edges, half]
 
 
 def _strips(bridge: Bridge, begin: float, end: float) -> Iterator[TriangleMesh]:
-    """Yield the slab in a strip above each girder: a shard that lay on two would hold both as one body."""
-    number = bridge.girders.number if bridge.girders else 1
-    if number == 1:
-        return
+    """Yield the slab in a strip above each girder: a shard that lay on two would hold both as one body.
+
+    Without girders it is in pieces between bends of the road.
+    """
+    inner, bends = _strip_edges(bridge), _bends(bridge, begin, end)
     deck, edge = bridge.deck, 0.5 * bridge.deck.width_m
-    inner = [bridge.girder_spacing_m * (girder - 0.5 * number) for girder in range(1, number)]
     height = slab_underside(bridge) + deck.thickness_m / 2.0
-    for right, left in pairwise((-edge, *inner, edge)):
+    if not inner and len(bends) > 2:
+        for first, last in pairwise(bends):
+            yield box((last - first, deck.width_m, deck.thickness_m), ((first + last) / 2.0, 0.0, height))
+    for right, left in pairwise((-edge, *inner, edge) if inner else ()):
         middle = ((begin + end) / 2.0, (right + left) / 2.0, height)
-        yield skewed(bridge, box((end - begin, left - right, deck.thickness_m), middle))
+        own = [side for side in _slab_edges(bridge) if right < side < left]
+        yield _along_road(bridge, (end - begin, left - right, deck.thickness_m), middle, own)
+
+
+def _strip_edges(bridge: Bridge) -> list[float]:
+    """Return the positions across the road between strips, half-way between girders."""
+    number = bridge.girders.number if bridge.girders else 1
+    return [bridge.girder_spacing_m * (girder - 0.5 * number) for girder in range(1, number)]
 
 
 def _girder(bridge: Bridge, begin: float, end: float, girder: int) -> TriangleMesh:
     girders = given(bridge.girders)
-    across = bridge.girder_spacing_m * (girder - (girders.number - 1) / 2.0)
-    middle = ((begin + end) / 2.0, across, deck_underside(bridge) + girders.depth_m / 2.0)
-    return box((end - begin, girders.width_m, girders.depth_m), middle)
+    middle = ((begin + end) / 2.0, _girder_axes(bridge)[girder], deck_underside(bridge) + girders.depth_m / 2.0)
+    return _along_road(bridge, (end - begin, girders.width_m, girders.depth_m), middle)
+
+
+def _girder_axes(bridge: Bridge) -> list[float]:
+    girders = given(bridge.girders)
+    return [bridge.girder_spacing_m * (girder - (girders.number - 1) / 2.0) for girder in range(girders.number)]
 
 
 def _box_girder(bridge: Bridge, begin: float, end: float) -> TriangleMesh:
-    """Slab and box in one, with the cells cut out; what is united overlaps, so that no two faces coincide."""
+    """Slab and box in one, in place, with the cells cut out; what is united overlaps, so that no faces coincide."""
     girder, bottom, top = given(bridge.box_girder), deck_underside(bridge), deck_top(bridge)
     middle, length = (begin + end) / 2.0, end - begin
     into_slab = (slab_underside(bridge) + top) / 2.0
-    body = box((length, girder.width_m, into_slab - bottom), (middle, 0.0, (into_slab + bottom) / 2.0))
+    size = (length, girder.width_m, into_slab - bottom)
+    body = _along_road(bridge, size, (middle, 0.0, (into_slab + bottom) / 2.0), _cell_edges(bridge))
     floor, ceiling = bottom + girder.bottom_thickness_m, slab_underside(bridge)
     cells = [
-        box(
+        _along_road(
+            bridge,
             (length + 2.0 * _BEYOND_M, girder.cell_width_m, ceiling - floor),
             (middle, across, (floor + ceiling) / 2.0),
         )
         for across in _cell_axes(bridge)
     ]
-    return difference(union([_slab(bridge, begin, end), body]), cells)
+    solids = [_slab(bridge, begin, end), body]
+    if (line := road_line(bridge)) is None:
+        return skewed(bridge, difference(union(solids), cells))
+    return difference(union([line.carried(solid) for solid in solids]), [line.carried(cell) for cell in cells])
 
 
 def _plates(bridge: Bridge, begin: float, end: float) -> list[TriangleMesh]:
@@ -98,13 +157,15 @@ def _plates(bridge: Bridge, begin: float, end: float) -> list[TriangleMesh]:
     middle, length, floor = (begin + end) / 2.0, end - begin, bottom + girder.bottom_thickness_m
     spacing = girder.cell_width_m + girder.web_thickness_m
     webs = [
-        box(
+        _along_road(
+            bridge,
             (length, girder.web_thickness_m, ceiling - floor),
             (middle, spacing * (web - girder.cells / 2.0), (floor + ceiling) / 2.0),
         )
         for web in range(girder.cells + 1)
     ]
-    bottom_slab = box((length, girder.width_m, girder.bottom_thickness_m), (middle, 0.0, (bottom + floor) / 2.0))
+    size = (length, girder.width_m, girder.bottom_thickness_m)
+    bottom_slab = _along_road(bridge, size, (middle, 0.0, (bottom + floor) / 2.0), _cell_edges(bridge))
     return [_slab(bridge, begin, end), *webs, bottom_slab]
 
 
@@ -112,3 +173,8 @@ def _cell_axes(bridge: Bridge) -> list[float]:
     girder = given(bridge.box_girder)
     spacing = girder.cell_width_m + girder.web_thickness_m
     return [spacing * (cell - (girder.cells - 1) / 2.0) for cell in range(girder.cells)]
+
+
+def _cell_edges(bridge: Bridge) -> list[float]:
+    half = 0.5 * given(bridge.box_girder).cell_width_m
+    return [axis + side for axis in _cell_axes(bridge) for side in (-half, half)]

@@ -16,6 +16,7 @@ from ..lifts import Lift
 from ..loads.loads import Load
 from ..materials import BarLayer, Material
 from ..pulls import Pull
+from .alignment import Alignment
 from .arch import Arch, RigidFrame
 from .ball import Ball, BallCable, BallHit
 from .bodies import Equipment, Ground, GroundSurface, ShardSettings, Support
@@ -27,6 +28,7 @@ from .dead_loads import DeadLoad
 from .fracture import Finer, FracturePoint, FractureSettings, MemberFracture
 from .geometry import Geometry
 from .girders import GirderSpan
+from .haunches import Haunches
 from .jackhammer import Jackhammer
 from .joint_settings import ConnectionBetween
 from .recording import PictureSettings, RecordingSettings, ReportSettings
@@ -40,6 +42,7 @@ from .trusses import TrussSpan
 
 __all__ = [
     "Abutments",
+    "Alignment",
     "Arch",
     "Ball",
     "BallCable",
@@ -68,6 +71,7 @@ __all__ = [
     "Girders",
     "Ground",
     "GroundSurface",
+    "Haunches",
     "Jackhammer",
     "Lift",
     "Load",

@@ -6,10 +6,12 @@ from typing import ClassVar
 
 from ...engineering.arithmetic import cosine, sine
 from ..schema import DENSITY, SIZE, Table, given, key
+from .alignment import Alignment
 from .arch import Arch, RigidFrame
 from .bearings import BearingOfBridge
 from .bridge_checks import check_bridge
 from .bridge_parts import Abutments, BoxGirder, BridgeBearings, Deck, Girders, PierCaps, Piers, Voids
+from .haunches import Haunches
 from .reinforcement import BridgeReinforcement
 
 LARGEST_SKEW_DEG = 75.0
@@ -50,10 +52,12 @@ class Bridge(Table):
         default=False,
         label="Merge Touching Members",
     )
+    alignment: Alignment | None = None
     deck: Deck
     girders: Girders | None = None
     box_girder: BoxGirder | None = None
     voids: Voids | None = None
+    haunches: Haunches | None = None
     piers: Piers | None = None
     pier_caps: PierCaps | None = None
     abutments: Abutments | None = None

@@ -3,19 +3,30 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from dataclasses import replace
 from itertools import accumulate
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from ...engineering.arithmetic import cosine
 from ...engineering.geometry.arches import ArchAxis
+from ...engineering.geometry.road_lines import RoadLine
 from ...errors import ScenarioError
 from ..schema import FARTHEST_M, ROUNDING, Table, check_exactly_one, given
+from .alignment import Alignment
 from .arch import Arch, RigidFrame
 from .bridge_parts import Abutments, BridgeBearings, Girders, Piers
+from .haunches import Haunches
 from .reinforcement import BridgeReinforcement
 
 if TYPE_CHECKING:
     from .bridge import Bridge
+
+
+SHORTEST_SUPPORT_M = 0.1
+"""Least height of what stands on the ground."""
 
 
 def axes_m(bridge: Bridge) -> list[float]:
@@ -37,6 +48,69 @@ def rib_axes_m(bridge: Bridge) -> list[float]:
 def leg_axes_m(bridge: Bridge) -> list[float]:
     """Return the positions along the road of the legs of the frame, where they meet the deck."""
     return axes_m(bridge)[1:-1] if bridge.abutments else axes_m(bridge)
+
+
+def deck_underside(bridge: Bridge) -> float:
+    """Height above the ground of what lies on piers and abutments, m: slab, girders or box girder."""
+    if bridge.frame:
+        return bridge.frame.clear_height_m
+    if bridge.piers is None:
+        return given(given(bridge.abutments).height_m)
+    cap_height = bridge.pier_caps.height_m if bridge.pier_caps else 0.0
+    return bridge.piers.height_m + cap_height
+
+
+def slab_underside(bridge: Bridge) -> float:
+    """Height of the slab's underside above the ground, m: higher than that of the girders or the box it lies on."""
+    below = bridge.girders or bridge.box_girder
+    return deck_underside(bridge) + (below.depth_m if below else 0.0)
+
+
+def deck_top(bridge: Bridge) -> float:
+    """Height of the road surface above the ground, m."""
+    return slab_underside(bridge) + bridge.deck.thickness_m
+
+
+def road_line(bridge: Bridge) -> RoadLine | None:
+    """Return the line that the deck follows; None of one that is straight, level and of one depth."""
+    if bridge.alignment is None and bridge.haunches is None:
+        return None
+    axes, half = axes_m(bridge), _half_support_m(bridge)
+    ends = -bridge.deck.overhang_m, bridge.spans_m + bridge.deck.overhang_m
+    alignment, shift = bridge.alignment or Alignment(), bridge.shift_across
+    if bridge.haunches is None:
+        return alignment.line(axes, [half] * len(axes), ends, shift)
+    places, depths = bridge.haunches.outline(axes, half)
+    line = alignment.line(axes, [half] * len(axes), ends, shift, places.tolist())
+    level = slab_underside(bridge) if bridge.girders or bridge.box_girder else deck_top(bridge)
+    factors = 1.0 + np.interp(line.stations_m, places, depths) / (level - deck_underside(bridge))
+    return replace(line, level_m=level, factors=factors)
+
+
+def lower_by_m(bridge: Bridge, along_m: float) -> float:
+    """Return how much lower what carries the deck at an axis ends than it would below a deck without haunches."""
+    if bridge.haunches is None:
+        return 0.0
+    axes = axes_m(bridge)
+    return bridge.haunches.depth_over_m(_nearest(axes, along_m), len(axes))
+
+
+def axis_line(bridge: Bridge, along_m: float) -> RoadLine | None:
+    """Return the plane that the deck lies in over the support with its axis there, as a line with one slope."""
+    if bridge.alignment is None:
+        return None
+    axes = axes_m(bridge)
+    return bridge.alignment.axis_line(axes, _nearest(axes, along_m), bridge.shift_across)
+
+
+def _nearest(axes: Sequence[float], along_m: float) -> int:
+    return min(range(len(axes)), key=lambda number: abs(axes[number] - along_m))
+
+
+def deck_top_at(bridge: Bridge, along_m: float, across_m: float) -> float:
+    """Return the height of the road surface above the ground at a position in plan, m."""
+    line = road_line(bridge)
+    return deck_top(bridge) + (0.0 if line is None else line.rise_m(along_m, across_m))
 
 
 def upright_names(bridge: Bridge) -> list[list[str]]:
@@ -85,6 +159,8 @@ def check_bridge(bridge: Bridge) -> None:
     _check_superstructure(bridge)
     _check_room_along(bridge)
     _check_joints(bridge)
+    if bridge.alignment or bridge.haunches:
+        _check_line(bridge)
     if bridge.piers:
         _check_room_across(bridge, bridge.piers)
     if bridge.merge:
@@ -172,6 +248,71 @@ def _column_turn(bridge: Bridge) -> float:
     """Return a column's length along the road over the room it takes there once it is turned."""
     piers = given(bridge.piers)
     return 1.0 if piers.is_wall or piers.is_round else float(cosine(math.radians(bridge.skew_deg)))
+
+
+def _longest_support_m(bridge: Bridge) -> float:
+    """Return the length along the road of the longest of what carries the deck."""
+    lengths = [bridge.abutments.length_m] if bridge.abutments else []
+    if bridge.piers:
+        lengths.append(bridge.piers.column_length_m / _column_turn(bridge))
+    if bridge.pier_caps:
+        lengths.append(bridge.pier_caps.length_m)
+    return max(lengths)
+
+
+def _half_support_m(bridge: Bridge) -> float:
+    """Return how far from its axis the longest support extends, along the middle of the road: on a curve more than by
+    its length, as the inner edge of the road is shorter."""
+    half, radius = 0.5 * _longest_support_m(bridge), bridge.alignment.radius_m if bridge.alignment else None
+    return half if radius is None else half * abs(radius) / (abs(radius) - 0.5 * _widest_m(bridge))
+
+
+def _widest_m(bridge: Bridge) -> float:
+    widths = [part.width_m for part in (bridge.deck, bridge.pier_caps, bridge.abutments) if part]
+    return max([*widths, bridge.piers.column_width_m if bridge.piers else 0.0])
+
+
+def _check_curve(bridge: Bridge, alignment: Alignment, radius_m: float) -> None:
+    widest = _widest_m(bridge)
+    if abs(radius_m) <= widest:
+        raise alignment.unexpected(
+            "radius_m", f"more than {widest:g} (m) or less than {-widest:g}, the width of what is on the curve"
+        )
+    if bridge.skew_deg != 0.0:
+        raise ScenarioError(f"bridge.skew_deg is {bridge.skew_deg:g}: expected 0 with bridge.alignment.radius_m")
+    shortest, half = min(bridge.span_lengths_m), _half_support_m(bridge)
+    if 2.0 * half >= shortest:
+        raise alignment.unexpected(
+            "radius_m",
+            f"more, so that supports {2.0 * half:.4g} m long in its middle fit into a span of {shortest:g} m",
+        )
+
+
+def _check_line(bridge: Bridge) -> None:
+    own = "alignment" if bridge.alignment else "haunches"
+    for name in ("arch", "frame", "merge"):
+        if getattr(bridge, name):
+            raise ScenarioError(f"bridge.{own} and bridge.{name} are given together: expected at most one")
+    if bridge.alignment and bridge.alignment.radius_m is not None:
+        _check_curve(bridge, bridge.alignment, bridge.alignment.radius_m)
+    if bridge.haunches:
+        _check_haunches(bridge, bridge.haunches)
+    if bridge.alignment:
+        bridge.alignment.check_axes(axes_m(bridge), deck_top(bridge))
+
+
+def _check_haunches(bridge: Bridge, haunches: Haunches) -> None:
+    if bridge.voids:
+        raise ScenarioError("bridge.haunches and bridge.voids are given together: expected at most one")
+    axes = axes_m(bridge)
+    haunches.check_along(axes, _half_support_m(bridge))
+    for axis in axes:
+        if not lower_by_m(bridge, axis):
+            continue
+        if bridge.abutments and axis in (axes[0], axes[-1]):
+            haunches.check_depth(deck_underside(bridge) - SHORTEST_SUPPORT_M, "the height of abutments")
+        elif bridge.piers:
+            haunches.check_depth(bridge.piers.height_m - SHORTEST_SUPPORT_M, "bridge.piers.height_m")
 
 
 def _check_room_along(bridge: Bridge) -> None:

@@ -7,6 +7,8 @@ from functools import cache
 from itertools import chain, combinations
 from typing import Any, ClassVar, Literal, NamedTuple
 
+import numpy as np
+
 from ...engineering.blast.site_law import SiteLaw
 from ...engineering.elasticity.steel_bars import Steel
 from ...engineering.ground_motion import GroundRecord
@@ -46,7 +48,7 @@ from .ball import Ball
 from .bearings import Bearing
 from .bodies import Equipment, Ground, ShardSettings, Support
 from .bridge import Bridge
-from .bridge_checks import upright_names
+from .bridge_checks import road_line, upright_names
 from .connections import ConnectionSettings, joints_of_connections
 from .contacts import BodyInContact, ContactSettings, SurfaceValues, check_not_both, with_own_values
 from .dead_loads import DeadLoad
@@ -404,6 +406,8 @@ def _check_on_deck(bridge: Bridge, name: str, point: tuple[float, float]) -> Non
     along, across = point
     overhang, half_width = bridge.deck.overhang_m, bridge.deck.width_m / 2.0
     skewed_by = across * bridge.shift_across
+    if bridge.alignment and bridge.alignment.radius_m is not None and (line := road_line(bridge)):
+        along, across, _ = line.from_world(np.array([along, across, 0.0])).tolist()
     deck = ((skewed_by - overhang, skewed_by + bridge.spans_m + overhang), (-half_width, half_width))
     for number, (position, (lowest, highest)) in enumerate(zip((along, across), deck, strict=True), start=1):
         slack = ROUNDING * (highest - lowest)

@@ -77,22 +77,26 @@ def bearing_axes(model: Model, bearings: Sequence[BearingForce]) -> tuple[Bearin
     """Return the axes of a model in which two bearings or more carry together."""
     if model.bearings is None:
         return ()
-    below = {
-        number: int(model.connections.pairs[rows[0], 1])
+    pairs = {
+        number: model.connections.pairs[rows[0]].tolist()
         for number in range(len(bearings))
         if len(rows := model.bearings.rows_of(number))
     }
-    members = {number: int(model.member_of_shard[shard]) if shard >= 0 else -1 for number, shard in below.items()}
+    above, members = (
+        {number: int(model.member_of_shard[pair[side]]) if pair[side] >= 0 else -1 for number, pair in pairs.items()}
+        for side in (0, 1)
+    )
 
     def are_beside(one: int, other: int) -> bool:
         if members[one] == members[other]:
             return True
-        places = [model.members[members[n]].without_skew(bearings[n].axis_m) for n in (one, other)]
+        # What lies above follows the line of the road, which a column below does not.
+        places = [model.members[above[n]].without_skew(bearings[n].axis_m) for n in (one, other)]
         along, _, up = np.abs(places[0] - places[1])
         return bool(along <= _SAME_AXIS_M and up <= _SAME_LEVEL_M)
 
     axes: list[list[int]] = []
-    for number in below:
+    for number in pairs:
         together = [axis for axis in axes if any(are_beside(number, other) for other in axis)]
         joined = [*(other for axis in together for other in axis), number]
         axes = [*(axis for axis in axes if axis not in together), joined]

@@ -193,7 +193,7 @@ class _LayersAcross:
                 )
                 for layer, force, opening, strain, level, width in columns:
                     pulls, positions = _pulls(face, corners, group, level, force / width, len(rows))
-                    if not layer.anchored and group.own is None:
+                    if not layer.anchored and not layer.own_axes:
                         held = _anchored(layer, member, tensile_strength_pa(compression_pa), pulls, positions)
                         pulls, positions = held * pulls, held[:, None] * positions
                     moments = member.with_skew(positions) if group.own is None else positions
@@ -295,11 +295,12 @@ def _anchored(
 ) -> np.ndarray:
     """Return the parts (k,) of their forces (k,) that straight bars resist by bond, from there to the member's ends.
 
-    `positions` (k, 3) are those of the bars by their forces, without the skew of the member. Where a layer says itself
-    where it begins or ends, it has its whole strength.
+    `positions` (k, 3) are those of the bars by their forces, without the skew of the member, but of one on a line of
+    its own. Where a layer says itself where it begins or ends, it has its whole strength.
     """
     axis = layer.axes[0]
-    along = np.divide(positions[:, axis], pulls, out=np.zeros(len(pulls)), where=pulls > 0.0)
+    places = np.divide(positions, pulls[:, None], out=np.zeros_like(positions), where=pulls[:, None] > 0.0)
+    along = (places if member.line is None else member.line.from_world(places))[:, axis]
     of_member = member.without_skew(member.solid.vertices)[:, axis]
     begin = of_member.min() if layer.from_m is None else -np.inf
     end = of_member.max() if layer.to_m is None else np.inf

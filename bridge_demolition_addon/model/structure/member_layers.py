@@ -20,6 +20,7 @@ from ...engineering.elasticity.steel_bars import (
 )
 from ...engineering.geometry.mesh import plane_cuts
 from ...engineering.geometry.own_axes import OwnAxes
+from ...engineering.geometry.road_lines import RoadLine
 from ...engineering.geometry.vectors import AXES
 from ...engineering.structure.connections import Connections
 from ...errors import ScenarioError
@@ -44,7 +45,7 @@ class LayersOfMember:
     levels_m: tuple[float, ...]
     widths_m: tuple[float, ...]
     between_m: tuple[float, float] = (-math.inf, math.inf)  # along the bars: part of the member with these layers
-    own: OwnAxes | None = None  # axes of the member that these layers count in; None for those of the bridge
+    own: OwnAxes | RoadLine | None = None  # axes of the member that layers count in; None for those of the bridge
 
     @property
     def axes(self) -> tuple[int, int, int]:
@@ -148,9 +149,8 @@ def _together(
     widths = [_width(corners, across, beside, level) for level in levels]
     _check_widths(member, layers, widths, across, float(highest[across] - lowest[across]))
     width_m = float(highest[beside] - lowest[beside])
-    return LayersOfMember(
-        index, layers, float(lowest[across]), float(highest[across]), width_m, levels, tuple(widths), between_m
-    )
+    ends = float(lowest[across]), float(highest[across])
+    return LayersOfMember(index, layers, *ends, width_m, levels, tuple(widths), between_m, member.line)
 
 
 def _in_own_axes(

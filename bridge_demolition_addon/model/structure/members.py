@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import chain
+from itertools import chain, pairwise
 from pathlib import Path
 
 import numpy as np
@@ -26,6 +26,7 @@ from ...engineering.fracture.shared_faces import SharedFaces, joined_faces, touc
 from ...engineering.fracture.slabs import cut_out, cut_through, inclined_fracture, slabs
 from ...engineering.geometry.convex_parts import convex_parts
 from ...engineering.geometry.mesh import TriangleMesh
+from ...engineering.geometry.road_lines import road_prism
 from ...engineering.geometry.solids import contains
 from ...engineering.geometry.vectors import AXES
 from ...errors import GeometryError
@@ -66,6 +67,9 @@ _FEW = 2
 
 _THIN_M = 0.05
 """Slices of girders and slab that are not cut off beside a plane that something else cuts along."""
+
+_DECIMALS = 9
+"""To which corners of straight parts are the same."""
 
 _LEAST_IN_CLEAR = 2
 """Pieces of a girder between two supports, beside those above them: with fewer it is hardly a beam."""
@@ -368,8 +372,20 @@ def _across(member: Member, stations_m: Sequence[float]) -> Member:
     if not len(stations_m):
         return member
     parts = [replace(part, vertices=member.without_skew(part.vertices)) for part in member.parts or (member.solid,)]
-    pieces = (piece for part in parts for piece in slabs(part, 0, stations_m))
+    # On a road that bends, corners are needed where it does, though a straight part has none there.
+    cut = slabs if member.line is None else _prisms
+    pieces = (piece for part in parts for piece in cut(part, 0, stations_m))
     return replace(member, parts=tuple(replace(piece, vertices=member.with_skew(piece.vertices)) for piece in pieces))
+
+
+def _prisms(part: TriangleMesh, axis: int, stations_m: Sequence[float]) -> Iterator[TriangleMesh]:
+    """Yield a straight part, level on both sides, between stations, with all its corners along and across the road."""
+    x, y = (np.unique(part.vertices[:, side].round(_DECIMALS)) for side in (axis, 1 - axis))
+    low, high = float(part.vertices[:, 2].min()), float(part.vertices[:, 2].max())
+    ends = [x[0], *(station for station in stations_m if x[0] < station < x[-1]), x[-1]]
+    for begin, end in pairwise(ends):
+        along = [begin, *x[(x > begin + _THIN_M) & (x < end - _THIN_M)], end]
+        yield road_prism(along, y.tolist(), [low] * len(along), [high] * len(along))
 
 
 def _in_pieces(member: Member, cuts: Sequence[CutOfMembers]) -> Member:

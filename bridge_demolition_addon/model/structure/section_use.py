@@ -185,7 +185,11 @@ class SectionsWithBars:
         planes = self._planes(number, placed[:, 0], between_m)
         middles = np.tile(placed[model.member_of_shard == number].mean(axis=0), (len(planes), 1))
         middles[:, 0], middles[:, 2] = planes, beam.slab_m
-        points, runs = member.with_skew(middles), unit(member.with_skew(np.tile(np.eye(3)[0], (len(planes), 1))))
+        points = member.with_skew(middles)
+        if member.line:
+            runs = member.line.directions(middles, 0)
+        else:
+            runs = unit(member.with_skew(np.tile(np.eye(3)[0], (len(planes), 1))))
         rows = np.flatnonzero(self._within == of_member)
         return planes, points, runs, self._cuts(rows, placed[:, 0], planes, points, loads, used)
 

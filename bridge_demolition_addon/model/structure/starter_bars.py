@@ -123,8 +123,12 @@ def _bars_of(layers: Sequence[BarLayer], member: Member) -> list[_Crossing]:
         if layer.is_spread:
             ratio = layer.ratio
         else:
-            low, high = own_axes(member).ends_m(axis) if layer.own_axes else member.solid.bounds[:, axis].tolist()
-            ratio = layer.area_m2 * (high - low) / member.volume_m3
+            corners = member.without_skew(member.solid.vertices) if member.line else member.solid.vertices
+            length = float(np.ptp(corners[:, axis]))
+            if layer.own_axes:
+                low, high = own_axes(member).ends_m(axis)
+                length = high - low
+            ratio = layer.area_m2 * length / member.volume_m3
         found.append(_Crossing(ratio, layer.yield_pa, layer.diameter_m, (layer.own_axes, axis), layer.ends_m))
     return found
 
@@ -139,6 +143,9 @@ def _crossing(
             axes = own_axes(member)
             place = axes.from_world(point_m[None])[0]
             along = axes.directions(place[None], axis)[0]
+        elif member.line:
+            place = member.line.from_world(point_m)
+            along = member.line.directions(place[None], axis)[0]
         if bar.ends_m[0] <= place[axis] <= bar.ends_m[1]:
             yield replace(bar, ratio=bar.ratio * abs(float(dot(along, normal))))
 

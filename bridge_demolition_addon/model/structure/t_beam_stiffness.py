@@ -24,7 +24,8 @@ from ...engineering.elasticity.section_stiffness import (
     measured_at,
     web_torsion_m4,
 )
-from ...engineering.geometry.vectors import product
+from ...engineering.geometry.road_lines import RoadLine
+from ...engineering.geometry.vectors import product, unit
 from ...engineering.mechanics.section_cuts import section_axes
 from ..bridge.superstructure import cast_decks
 from ..schema import given
@@ -45,7 +46,7 @@ def fit_to_t_beams(matrices: FloatArray, rows: ConnectionRows, cut: CutBridge) -
     for cast in _cast_t_beams(rows, cut):
         for row in np.flatnonzero(cast.of_faces(rows.connections.pairs)).tolist():
             turn = np.zeros((6, 6))
-            turn[:3, :3] = turn[3:, 3:] = axes[row]
+            turn[:3, :3] = turn[3:, 3:] = cast.on_road(row, axes[row])
             moduli = given(cut.scenario.joints[int(rows.joints[row])].moduli)
             in_world = product(product(turn, matrices[row]), turn.T)
             fitted = cast.stiffness(row, in_world, moduli)
@@ -63,10 +64,12 @@ class _CastTBeams:
     is_web: BoolArray  # (n + 1,)
     is_piece: BoolArray  # (n + 1,), whether it is all of its girder or slab in a piece of a T-beam
     points_m: FloatArray  # (m, 3), middles of faces, without skew
+    headings: FloatArray | None  # (m, 2), directions in plan of a road that is curved, where faces are
     girders_m: FloatArray  # (g,), where girders are across the road
     widths_m: FloatArray  # (g,), of the slab of each
     slab_m: float
-    web_m: tuple[float, float]  # width and depth
+    web_m: tuple[float, float]  # width and depth, between haunches
+    road: RoadLine | None  # that the slab follows
 
     def of_faces(self, pairs: IntArray) -> BoolArray:
         """Return which connections between pairs (m, 2) of shards are within these."""
@@ -84,6 +87,18 @@ class _CastTBeams:
             return self._below_slab(row, moduli)
         return self._along(row, moduli)
 
+    def on_road(self, row: int, axes: FloatArray) -> FloatArray:
+        """Return directions (3, k) of the world, where a face is, along the road, across it and upwards."""
+        if self.headings is None:
+            return axes
+        along, left = self.headings[row].tolist()
+        return product(np.array([[along, left, 0.0], [-left, along, 0.0], [0.0, 0.0, 1.0]]), axes)
+
+    def _web_at(self, row: int) -> tuple[float, float]:
+        """Width and depth of a web where a face is."""
+        wide_m, deep_m = self.web_m
+        return wide_m, deep_m * (self.road.factor_at(float(self.points_m[row, 0])) if self.road else 1.0)
+
     def _below_slab(self, row: int, moduli: ElasticModuli) -> FloatArray:
         """Of the face between a web and its slab."""
         one, other = self.centres_m[self.rows.connections.pairs[row]]
@@ -98,22 +113,23 @@ class _CastTBeams:
         """Of a cut of a web or of its slab."""
         connections = self.rows.connections
         one, other = connections.pairs[row].tolist()
-        normal, wide_m = connections.normals[row], self.widths_m[self.line[one]]
-        section = BeamSection.rectangle(*(self.web_m if self.is_web[one] else (wide_m, self.slab_m)))
+        normal = self.on_road(row, connections.normals[row][:, None])[:, 0]
+        wide_m, web_m = self.widths_m[self.line[one]], self._web_at(row)
+        section = BeamSection.rectangle(*(web_m if self.is_web[one] else (wide_m, self.slab_m)))
         if abs(normal[2]) > _WHOLE or abs(connections.areas[row] * abs(normal[0]) / section.area_m2 - 1.0) > _WHOLE:
             return None
         length_m = float(abs(self.centres_m[one] - self.centres_m[other])[0])
-        web = BeamSection.rectangle(*self.web_m)
+        web = BeamSection.rectangle(*web_m)
         slab = BeamSection.rectangle(wide_m, self.slab_m)
-        deep_m, between_m = self.web_m[1] + self.slab_m, 0.5 * (self.web_m[1] + self.slab_m)
+        deep_m, between_m = web_m[1] + self.slab_m, 0.5 * (web_m[1] + self.slab_m)
         both_m2 = web.area_m2 * slab.area_m2 / (web.area_m2 + slab.area_m2)
         whole = replace(
             web,
             about_y_m4=web.about_y_m4 + slab.about_y_m4 + both_m2 * between_m * between_m,
-            shear_z_m2=SHEAR_FACTOR * self.web_m[0] * deep_m,
+            shear_z_m2=SHEAR_FACTOR * web_m[0] * deep_m,
         ).joint(moduli, length_m)
         if self.is_web[one]:
-            twisting_m4, part = web_torsion_m4(*self.web_m, self.slab_m), self.web_m[1] / deep_m
+            twisting_m4, part = web_torsion_m4(*web_m, self.slab_m), web_m[1] / deep_m
         else:
             twisting_m4, part = 0.5 * section.torsion_m4, self.slab_m / deep_m
         own = replace(section, torsion_m4=twisting_m4).joint(moduli, length_m)
@@ -151,7 +167,10 @@ def _cast_t_beams(rows: ConnectionRows, cut: CutBridge) -> Iterator[_CastTBeams]
         if deck not in number_of or any(web not in number_of for web in webs):
             continue
         slab = cut.members[number_of[deck]]
-        centres = np.vstack((slab.without_skew(cut.centres_m), np.zeros(3)))
+        # As deep as they are, on a straight, level road.
+        on_road = replace(slab.line, factors=None).from_world if slab.line else slab.without_skew
+        points_m = on_road(rows.connections.points)
+        centres = np.vstack((on_road(cut.centres_m), np.zeros(3)))
         line, of_members = np.full(len(centres), -1), np.append(cut.member_of_shard, -1)
         for girder, web in enumerate(webs):
             line[of_members == number_of[web]] = girder
@@ -173,9 +192,11 @@ def _cast_t_beams(rows: ConnectionRows, cut: CutBridge) -> Iterator[_CastTBeams]
             line=line,
             is_web=is_web,
             is_piece=is_piece,
-            points_m=slab.without_skew(rows.connections.points),
+            points_m=points_m,
+            headings=unit(slab.line.directions(points_m, 0)[:, :2]) if slab.line and slab.line.radius_m else None,
             girders_m=places,
             widths_m=np.diff(np.clip(edges, -half_m, half_m)),
             slab_m=bridge.deck.thickness_m,
             web_m=(girders.width_m, girders.depth_m),
+            road=slab.line,
         )

@@ -93,7 +93,8 @@ def t_beams(scenario: Scenario, layers: Sequence[BarLayer], members: Sequence[Me
     bridge = scenario.bridge
     if bridge is None or bridge.girders is None:
         return
-    along = [group for group in layers_of_members(layers, members) if group.axes[0] == 0 and group.own is None]
+    groups = [group for group in layers_of_members(layers, members) if not group.layers[0].own_axes]
+    along = [group for group in groups if group.axes[0] == 0]
     rows = {member.name: row for row, member in enumerate(members) if is_concrete(scenario, member)}
     axes, decks = tuple(pier_axes(bridge).tolist()), list(cast_decks(bridge))
     for span, (deck_name, girders) in enumerate(decks):

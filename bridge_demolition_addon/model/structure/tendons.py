@@ -24,7 +24,7 @@ from ...engineering.elasticity.tendons import (
     TendonSteel,
     transmission_length_m,
 )
-from ...engineering.geometry.mesh import volumes_and_centres
+from ...engineering.geometry.mesh import TriangleMesh, volumes_and_centres
 from ...engineering.geometry.solids import Passages, passages
 from ...engineering.geometry.turned_boxes import TurnedBox
 from ...engineering.geometry.vectors import distance, dot, points_along, transformed_back
@@ -256,7 +256,8 @@ def _path(tendon: Tendon, member: Member) -> np.ndarray:
     (begin, right, _), (end, left, _) = corners.min(axis=0).tolist(), corners.max(axis=0).tolist()
     share = np.linspace(0.0, 1.0, _PARABOLA_PIECES + 1)
     below = first + share * (4.0 * middle - 3.0 * first - last) + share * share * (2.0 * (first + last) - 4.0 * middle)
-    height = volumes_and_centres([member.solid])[1][0, 2]  # of sections that are alike
+    straight = TriangleMesh(member.without_skew(member.solid.vertices), member.solid.triangles)
+    height = volumes_and_centres([straight if member.line else member.solid])[1][0, 2]  # of sections that are alike
     beside = 0.5 * (right + left) + tendon.beside_m
     points = np.column_stack((begin + share * (end - begin), np.full(len(share), beside), height - below))
     return member.with_skew(points)

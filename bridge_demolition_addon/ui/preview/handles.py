@@ -13,7 +13,7 @@ from mathutils import Matrix, Vector
 
 from ...display.dragging import dragged_along, dragged_level
 from ...errors import GeometryError, ScenarioError
-from ...model.bridge import deck_top
+from ...model.bridge import deck_top_at
 from ...scene.blast.charges import charge_objects
 from ...scene.world import FIRST_STEP_FRAME, simulated_time_s
 from ..languages.words import translated
@@ -97,7 +97,7 @@ def drag(scene: bpy.types.Scene, kind: HandleKind, index: int, position_m: Seque
     if kind == HandleKind.TARGET:
         drop.target_m = (x, y)
     else:
-        height_m = position_m[2] - deck_top(sizes_shown(scene.bda)[0])
+        height_m = position_m[2] - deck_top_at(sizes_shown(scene.bda)[0], *_drops(scene)[index].target_m)
         drop.drop_height_m = max(round(height_m, _DECIMALS), _LEAST_DROP_M)
 
 
@@ -110,10 +110,10 @@ def _of_ball(scene: bpy.types.Scene) -> Iterator[Handle]:
     bridge, ball, own = sizes_shown(scene.bda)
     if not (bridge and ball) or own:
         return
-    top = deck_top(bridge)
     for index, drop in enumerate(ball.drops):
         number = f" of hit {index + 1}" if ball.hits else ""
         x, y = drop.target_m
+        top = deck_top_at(bridge, x, y)
         yield Handle(HandleKind.TARGET, index, False, f"Target{number}", (x, y, top))
         yield Handle(
             HandleKind.DROP, index, True, f"Drop height{number}", (x, y, top + drop.drop_height_m), points_to=_UP
