@@ -17,13 +17,15 @@ sys.path.insert(1, str(Path(__file__).resolve().parent.parent / "validation"))
 
 from blind import Forecast, forecast_path, keep
 from deciding_version import deciding_version
-from validate import BLIND_CASES, blind_case_named
+from validate import BLIND_CASES, KNOWN_CASES, blind_case_named
+
+CASES = *BLIND_CASES, *KNOWN_CASES
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Make a forecast; the exit status is 1 where one was kept before, and --again was not given."""
     parser = argparse.ArgumentParser(prog="blind_forecast", description=__doc__.splitlines()[0])
-    parser.add_argument("case", choices=BLIND_CASES, metavar="CASE", help="one of " + ", ".join(BLIND_CASES))
+    parser.add_argument("case", choices=CASES, metavar="CASE", help="one of " + ", ".join(CASES))
     parser.add_argument("--output", type=Path, metavar="DIR", help="keep scenarios and results here")
     parser.add_argument("--again", action="store_true", help="print what it would be now; keep nothing")
     options = parser.parse_args(arguments)

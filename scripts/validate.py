@@ -19,6 +19,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 sys.path.insert(1, str(Path(__file__).resolve().parent.parent / "validation"))
 
+import real_demolitions
 from blind import BlindCase
 from blind_page import section as blind_section
 from case import GROUPS, VALIDATION, Against, Case, Comparison, Found
@@ -60,6 +61,9 @@ CASES = (
 BLIND_CASES = ("blind_beams", "blind_sections", "blind_airblast")
 """Cases whose forecasts were kept before their outcomes were opened; scripts/blind_forecast makes them."""
 
+KNOWN_CASES = ("real_demolitions",)
+"""Cases whose outcomes were known before, and whose forecasts are kept in the same way."""
+
 DOCUMENT, PICTURES = ROOT / "docs" / "validation.md", ROOT / "docs" / "pictures" / "validation"
 VERIFICATION = ROOT / "validation" / "README.md"
 """The cases that are held against theory alone, beside their code."""
@@ -99,6 +103,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         DOCUMENT.write_text(page(outcomes_kept), encoding="utf-8")
         VERIFICATION.write_text(verification_page(outcomes_kept), encoding="utf-8")
         TABLE.write_text(measurements(outcomes_kept), encoding="utf-8")
+        real_demolitions.DOCUMENT.write_text(real_demolitions.page(), encoding="utf-8")
     return 0 if all(outcome.is_met for outcome in outcomes) else 1
 
 

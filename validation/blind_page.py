@@ -18,7 +18,7 @@ def section(cases: Sequence[BlindCase]) -> list[str]:
     lines = ["## Blind forecasts", "", _HEAD, "", "| case | within its range, of | forecast over measured |"]
     lines += ["| --- | --- | --- |", *(_overview(case) for case in cases), ""]
     for case in cases:
-        lines += _of_case(case)
+        lines += case_lines(case)
     return lines
 
 
@@ -40,7 +40,8 @@ def _overview(case: BlindCase) -> str:
     return f"| [{case.title}](#{anchor}) | {hits} | {said} |"
 
 
-def _of_case(case: BlindCase) -> list[str]:
+def case_lines(case: BlindCase) -> list[str]:
+    """Return the lines of a case: what was known and assumed, what was foreseen and what was measured."""
     forecast, outcome = kept_forecast(case.name), kept_outcome(case.name)
     measured: Sequence[float | None] = outcome.measured if outcome else [None] * len(forecast.foreseen)
     return [
@@ -71,7 +72,8 @@ def _row(foreseen: Foreseen, measured: float | None) -> str:
     if measured is None:
         return f"{first} not known | | |"
     verdict = "" if foreseen.has(measured) else "**missed**"
-    return f"{first} {measured:.3g} {foreseen.unit} | {foreseen.value / measured:.2f} | {verdict} |"
+    ratio = f"{foreseen.value / measured:.2f}" if measured else ""
+    return f"{first} {measured:.3g} {foreseen.unit} | {ratio} | {verdict} |"
 
 
 def _outcome(outcome: Outcome | None) -> list[str]:
