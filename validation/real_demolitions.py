@@ -74,7 +74,7 @@ DEMOLITIONS = (
         happened="It failed. 65 kg in five low piers went off as planned on 10 December 2021; the outer two sank, the "
         "three between stood as if nothing had happened, and the deck bent a little. An adviser of the blasters: "
         "perhaps the piers were too low to fold.",
-        foreseen="The failure is not foreseen: all piers give way, and four or five of six spans come down, in each of "
+        foreseen="The failure is not foreseen: all piers fail, and four or five of six spans come down, in each of "
         "three runs. `bda check` says of each zone, before any run, that what is above it can land upright on its "
         "stub and stand, and that a second zone would let it fold. That is no forecast either: it says the like of the "
         "other two bridges, which came down.",
@@ -88,8 +88,8 @@ DEMOLITIONS = (
         [("spans down, of 5", "", spans_down), ("deck down after the first charge", "s", time_down_s)],
         happened="On 28 April 2018 it came down upright over its whole length: after half a second the charges had "
         "done their work, and one second later it lay in its bed. The machines were on the rubble half an hour later.",
-        foreseen="Three or four of five spans come down, in 2.5 to 3.1 s; the first and the last stay on their "
-        "abutments and lose a sixth of their height, two fifths in one run.",
+        foreseen="Three or four of five spans come down, in 2.5 to 3.1 s. In two runs the first and the last stay on "
+        "their abutments and lose a sixth of their height, in the third the last comes down as well.",
         cause="Free fall over 11 m takes 1.5 s, so that the deck is held on its way: columns land on stubs and stand, "
         "and abutments that cannot move hold the end spans. What was reported is a newspaper's count of seconds.",
     ),
@@ -103,7 +103,7 @@ DEMOLITIONS = (
         "the columns were drawn 2.1 m long.",
         cause="The mass of explosive is known, the columns are not: in those of 2.1 m it is 0.74 kg/m³, with which the "
         "model leaves the concrete as rubble between its bars, and the columns stand on it; in the others it is 0.85 "
-        "and 0.92 kg/m³, and the concrete is thrown out. The time is that of what happened in the range of that draw "
+        "and 0.92 kg/m³, and the concrete is thrown out. The time is that of what happened in the range of that run "
         "alone, else about twice as long: pieces of columns land on each other here, too.",
     ),
 )
