@@ -13,6 +13,9 @@ from .charge_plan import FiredRow
 
 _MS_PER_S = 1e3
 
+_LEAST_SAID = 1e-9
+"""A smaller chance is none that anyone counts with."""
+
 
 @dataclass(frozen=True, slots=True)
 class FiringPair:
@@ -57,10 +60,11 @@ def firing_facts(rows: Sequence[FiredRow]) -> Iterator[Fact]:
     pairs = firing_pairs(rows)
     if pairs:
         worst = max(pairs, key=lambda pair: pair.chance)
+        chance = f"{worst.chance:.2g}" if worst.chance >= _LEAST_SAID else f"less than {_LEAST_SAID:g}"
         yield (
             "order of firing",
             f"a detonator of {worst.later[0]} fires before one of {worst.earlier[0]}, planned "
-            f"{_MS_PER_S * worst.apart_s:g} ms earlier, with a chance of {worst.chance:.2g}",
+            f"{_MS_PER_S * worst.apart_s:g} ms earlier, with a chance of {chance}",
         )
         yield "", "of all successive times this is the likeliest, by the scatter of the detonators"
 

@@ -51,6 +51,9 @@ def test_each_planned_time_is_held_against_the_next(tmp_path):
 def test_what_is_the_likeliest_is_said_and_exact_detonators_say_nothing(tmp_path):
     upper = replace(ZONE, name="upper", middle_m=3.2, delay_ms=1.0)
     assert list(firing_facts(rows(tmp_path, ZONE, upper))) == []
+    # 25 ms are 52 standard deviations.
+    apart = [replace(ZONE, detonator="electronic"), replace(upper, delay_ms=25.0, detonator="electronic")]
+    assert next(iter(firing_facts(rows(tmp_path, *apart))))[1].endswith("with a chance of less than 1e-09")
     electronic = [replace(zone, detonator="electronic") for zone in (ZONE, upper)]
     (_, said), _ = firing_facts(rows(tmp_path, *electronic))
     # Φ(-1 / (0.34 √2)) = Φ(-2.080)
