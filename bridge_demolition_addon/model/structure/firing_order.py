@@ -14,7 +14,7 @@ from .charge_plan import FiredRow
 _MS_PER_S = 1e3
 
 _LEAST_SAID = 1e-9
-"""A smaller chance is none that anyone counts with."""
+"""Smaller chances are said to be less than this."""
 
 
 @dataclass(frozen=True, slots=True)
