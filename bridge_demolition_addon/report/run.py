@@ -29,6 +29,7 @@ from .run_folder import ReportedRun
 from .sections.blast import blast_section
 from .sections.charge_plan import charge_plan_section, flyrock_of, known_plan
 from .sections.collapse import collapse_section
+from .sections.control import document_control
 from .sections.cover import (
     ONE_RUN,
     RUN_TITLE,
@@ -125,7 +126,9 @@ def run_document(
     if run.scenario:
         sections.append(scenario_section(run, scenario_text(run.scenario)))
     subtitle = Text("Report of a simulated demolition. Bridge Demolition Add-on {}", version)
-    document = Document(run.title, subtitle, tuple(sections), run_summary(run, debris, flyrock))
+    fingerprint = run.summary.values.get("fingerprint") if run.summary else None
+    control = document_control(run.scenario, fingerprint)
+    document = Document(run.title, subtitle, tuple(sections), run_summary(run, debris, flyrock), control)
     return with_plan_contents(document, run.scenario, RUN_TITLE)
 
 

@@ -63,14 +63,15 @@ CHECKS = (
 def single_pages(document: Document, scenario: Scenario | None) -> dict[str, Document]:
     """Return the single pages of a report, by whom they are for."""
     return {
-        CLIENT: replace(document, subtitle=_subtitle(document, "For the client. {}"), sections=()),
+        CLIENT: _page(document, "For the client. {}", iter(document.summary)),
         AUTHORITY: _page(document, "For the authority. {}", _for_authority(document, scenario)),
         CREW: _page(document, "For the crew. {}", _for_crew(document, scenario)),
     }
 
 
 def _page(document: Document, audience: str, blocks: Iterator[Block]) -> Document:
-    return Document(document.title, _subtitle(document, audience), (), tuple(blocks))
+    control = replace(document.control, cover=(), signatures=())  # the foot says which document it is of
+    return Document(document.title, _subtitle(document, audience), (), tuple(blocks), control)
 
 
 def _subtitle(document: Document, audience: str) -> str:

@@ -27,6 +27,7 @@ from ..model.run_folder.files import (
     list_report,
 )
 from ..model.run_folder.folder import holds_run
+from ..model.run_folder.own_code import own_code
 from ..model.scenario import Scenario
 from ..model.study.file import OPTIMISE_FILE, REPORT_FOLDER, SEARCH_FILE, STUDY_FILE
 from ..model.terrain.placed import Placing
@@ -51,6 +52,7 @@ from .languages.translation import ENGLISH, Translation, check_language
 from .run import run_report
 from .run_folder import ReportedRun, read_run
 from .sections.charge_plan import planned_section
+from .sections.control import document_control
 from .sections.stages import has_stages, stages_report
 from .site_plan import charge_areas, write_areas
 from .survey import survey_report, survey_rows
@@ -238,7 +240,8 @@ def write_charge_plan(
     progress.stage("working out the charge plan")
     section, areas = planned_section(scenario), charge_areas(scenario)
     subtitle = f"Charge plan. Bridge Demolition Add-on {VERSION}"
-    document = Document(scenario.title, subtitle, (section,))
+    control = document_control(scenario, {"program": own_code()})
+    document = Document(scenario.title, subtitle, (section,), control=control)
     with _written_to(target):
         drawn = write_areas(areas, scenario.site, target / CHARGES_DXF, target / CHARGES_GEOJSON)
         report = Report(document, files=tuple(drawn), settings=scenario.report)

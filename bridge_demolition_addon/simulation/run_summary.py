@@ -18,6 +18,7 @@ from ..model.reinforcement.concrete_members import plain_concrete
 from ..model.results.arrays import Results, motion_digest, result_digest
 from ..model.results.motion import without_removed
 from ..model.results.summary import settling, summarise
+from ..model.run_folder.own_code import own_code
 from ..model.scenario import Scenario
 from ..model.schema import given
 from ..model.sequence.ending import fell_by_itself, undone_at_end
@@ -131,6 +132,7 @@ def _fingerprint(recording: Recording, results: Results) -> dict[str, str]:
         "built": given(recording.setup).digest,
         "motion": motion_digest(results),
         **whole,
+        "program": own_code(),
         "processor": processor_name(),
         "system": f"{platform.system()} {platform.machine()}",
         "blender": f"{bpy.app.version_string} {bpy.app.build_hash.decode()}",

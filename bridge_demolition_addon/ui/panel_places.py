@@ -47,6 +47,7 @@ TREE: dict[str, tuple[str, ...]] = {
         *("BDA_PT_compare", "BDA_PT_section", "BDA_PT_ground_and_air"),
         RUN_ADVANCED,
     ),
+    "BDA_PT_report": ("BDA_PT_document",),
     RUN_ADVANCED: (
         *("BDA_PT_time", "BDA_PT_pictures", "BDA_PT_overlay", "BDA_PT_earlier_run"),
         *("BDA_PT_handler", "BDA_PT_post_processing", "BDA_PT_recording"),

@@ -116,7 +116,10 @@ REPORT_LANGUAGES = ("en", "de", "es", "fr", "zh_hans")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ReportSettings(Table):
-    """Units and language of reports. Options of the command that makes a report come first."""
+    """Units and language of reports, and what identifies them: project, people, revision.
+
+    Options of the command that makes a report come first.
+    """
 
     table: ClassVar[str] = "report"
 
@@ -134,3 +137,15 @@ class ReportSettings(Table):
         default=None,
         choices=REPORT_LANGUAGES,
     )
+    project: str | None = key("Name of the project, on the first page.", default=None)
+    document_number: str | None = key(
+        "Number of the document or contract, on the first page and at the foot of each.", default=None
+    )
+    client: str | None = key("Who the report is for.", default=None)
+    site: str | None = key("Where the bridge is: road, place, address. Coordinates follow from `[site]`.", default=None)
+    author: str | None = key("Who prepared the report.", default=None)
+    checked_by: str | None = key("Who checked it; the report has a line to sign.", default=None)
+    approved_by: str | None = key("Who approved it; the report has a line to sign.", default=None)
+    date: str | None = key("Date of the document, such as 2026-11-29.", default=None)
+    revision: str | None = key("Revision of the document, on the first page and at the foot of each.", default=None)
+    changed: str | None = key("What changed in this revision.", default=None)

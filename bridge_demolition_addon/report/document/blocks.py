@@ -129,6 +129,16 @@ class Section:
 
 
 @dataclass(frozen=True, slots=True)
+class Control:
+    """What identifies a report: on its first page before and after the summary, and at the foot of each page."""
+
+    cover: tuple[DataTable, ...] = ()
+    signatures: tuple[DataTable, ...] = ()
+    foot: str = ""
+    author: str = ""
+
+
+@dataclass(frozen=True, slots=True)
 class Document:
     """A whole report; its summary stands on the first page, before all sections."""
 
@@ -136,10 +146,16 @@ class Document:
     subtitle: str
     sections: tuple[Section, ...]
     summary: tuple[Block, ...] = ()
+    control: Control = Control()
+
+    @property
+    def first_page(self) -> tuple[Block, ...]:
+        """What stands before all sections: what identifies the report, the summary, and lines to sign."""
+        return (*self.control.cover, *self.summary, *self.control.signatures)
 
     def blocks(self) -> Iterator[Block]:
-        """Return all blocks of the summary and of all sections in order."""
-        yield from self.summary
+        """Return all blocks of the first page and of all sections in order."""
+        yield from self.first_page
         for section in self.sections:
             yield from section.blocks
 

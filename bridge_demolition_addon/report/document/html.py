@@ -46,6 +46,7 @@ tr { break-inside: avoid; }
 thead { display: table-header-group; }
 table.short { break-inside: avoid; }
 pre { font: 0.75em/1.35 "DejaVu Sans Mono", "Liberation Mono", monospace; white-space: pre-wrap; }
+footer { margin-top: 2em; font-size: 0.8em; color: #333; }
 ol.contents { columns: 2; }
 ol.contents a { color: inherit; }
 figure.model canvas { width: 100%; aspect-ratio: 16 / 9; display: block; touch-action: none; }
@@ -64,12 +65,15 @@ def _lines(document: Document, drawings: Drawings, translation: Translation) -> 
     title = escape(document.title)
     yield f'<!doctype html>\n<html lang="{translation.table.tag}">\n<head>\n<meta charset="utf-8">'
     yield f"<title>{title}</title>"
+    yield f'<meta name="description" content="{escape(document.subtitle)}">'
+    if document.control.author:
+        yield f'<meta name="author" content="{escape(document.control.author)}">'
     yield '<link rel="icon" href="data:,">'  # or a browser asks for one
     yield f'<meta http-equiv="Content-Security-Policy" content="{_ALLOWED}">'
     yield '<meta name="viewport" content="width=device-width, initial-scale=1">'
-    yield f"<style>{STYLE}</style>\n</head>\n<body>\n<h1>{title}</h1>"
+    yield f"<style>{STYLE}{_page_foot(document.control.foot)}</style>\n</head>\n<body>\n<h1>{title}</h1>"
     yield f'<p class="subtitle">{escape(document.subtitle)}</p>'
-    for block in document.summary:
+    for block in document.first_page:
         yield _block(block, drawings, translation)
     yield '<ol class="contents">'
     for number, section in enumerate(document.sections, start=1):
@@ -79,7 +83,15 @@ def _lines(document: Document, drawings: Drawings, translation: Translation) -> 
         yield from _section(number, section, drawings, translation)
     if any(isinstance(block, AnimatedModel) for block in document.blocks()):
         yield f"<script>\n{_VIEWER.read_text(encoding='utf-8')}</script>"
+    if document.control.foot:
+        yield f"<footer>{escape(document.control.foot)}</footer>"
     yield "</body>\n</html>"
+
+
+def _page_foot(text: str) -> str:
+    """Return the rule by which browsers print a text at the foot of each page."""
+    quoted = text.replace("\\", "").replace('"', "'").replace("<", "(")
+    return f'@page {{ @bottom-left {{ content: "{quoted}"; font-size: 7pt; }} }}\n' if text else ""
 
 
 def _section(number: int, section: Section, drawings: Drawings, translation: Translation) -> Iterator[str]:

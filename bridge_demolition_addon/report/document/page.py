@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cache, lru_cache
 from itertools import groupby, pairwise
@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 from matplotlib.backends.backend_mixed import MixedModeRenderer
-from matplotlib.backends.backend_pdf import Op, PdfFile, RendererPdf
+from matplotlib.backends.backend_pdf import Name, Op, PdfFile, RendererPdf
 from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties, findfont, get_font
 from matplotlib.ft2font import FT2Font, Kerning, LoadFlags
@@ -75,13 +75,22 @@ class Placed:
         return self.scale * width_in * MM_PER_INCH, self.scale * height_in * MM_PER_INCH
 
 
+@dataclass(frozen=True, slots=True)
+class Start:
+    """Where a section starts on a page: its heading, and how far down that is."""
+
+    title: str
+    top_mm: float
+
+
 @dataclass(frozen=True, eq=False, slots=True)
 class Page:
-    """A page: lines of text, strokes, and drawings."""
+    """A page: lines of text, strokes, drawings, and sections that start on it."""
 
     lines: list[Line] = field(default_factory=list)
     strokes: list[tuple[np.ndarray, float]] = field(default_factory=list)  # corners (k, 2) in mm, pen in points
     drawings: list[Placed] = field(default_factory=list)
+    starts: list[Start] = field(default_factory=list)
 
     def write(self, file: PageFile) -> None:
         """Add the page to a PDF."""
@@ -110,13 +119,48 @@ class Page:
 
 
 class PageFile(PdfFile):
-    """A PDF whose lines of text are put together of words and letters, each of which matplotlib is asked for once."""
+    """A PDF whose lines of text are put together of words and letters, each of which matplotlib is asked for once.
+
+    It has bookmarks and its language, which matplotlib does not write: so the root of the file is written last.
+    """
 
     def __init__(self, *args: Any, **options: Any) -> None:
+        self._is_open = True
         self._words: dict[tuple[str, Font], list[Any]] = {}
         self._letters: dict[tuple[str, Font], list[tuple[object, Any]]] = {}
         self._noted: list[Any] | None = None
         super().__init__(*args, **options)
+
+    def writeObject(self, object: Any, contents: Any) -> None:  # noqa: N802
+        """Write an object, but for the root as matplotlib has it."""
+        if not (self._is_open and object is self.rootObject):
+            super().writeObject(object, contents)
+
+    def finish(self, pages: Sequence[Page], language: str) -> None:
+        """Write what pages share, with a bookmark for each section, and the language for who has it read aloud."""
+        self.endStream()
+        self._is_open = False
+        root = {"Type": Name("Catalog"), "Pages": self.pagesObject, "Lang": language}
+        root["ViewerPreferences"] = {"DisplayDocTitle": True}
+        starts = [(number, start) for number, page in enumerate(pages) for start in page.starts]
+        if starts:
+            root |= {"Outlines": self._outlines(starts), "PageMode": Name("UseOutlines")}
+        self.writeObject(self.rootObject, root)
+        self.finalize()
+
+    def _outlines(self, starts: Sequence[tuple[int, Start]]) -> Any:
+        """Write the bookmarks, one below the other, and return their list."""
+        whole = self.reserveObject("bookmarks")
+        each = [self.reserveObject("bookmark") for _ in starts]
+        for number, ((page, start), own) in enumerate(zip(starts, each, strict=True)):
+            _, top = _points(np.array([LEFT_MM, start.top_mm]))
+            entry = {"Title": start.title, "Parent": whole}
+            entry["Dest"] = [self.pageList[page], Name("XYZ"), 0, float(top), 0]
+            entry |= {"Prev": each[number - 1]} if number else {}
+            entry |= {"Next": each[number + 1]} if number + 1 < len(each) else {}
+            self.writeObject(own, entry)
+        self.writeObject(whole, {"Type": Name("Outlines"), "First": each[0], "Last": each[-1], "Count": len(each)})
+        return whole
 
     def output(self, *data: Any) -> None:
         """Write operators, or note those of a letter."""

@@ -36,6 +36,7 @@ from .page import (
     Page,
     PageFile,
     Placed,
+    Start,
     shortened,
     width_mm,
     wrapped,
@@ -58,6 +59,11 @@ from .rows import (
 _HEADING_MM = 22.0
 """What a heading takes, with the room around it."""
 
+_FEWEST_LISTED = 3
+"""Sections from which on a report has a list of contents."""
+
+_FOOT_LINE_MM = 4.0
+
 _LINES_TOGETHER = 3
 """First lines of a paragraph that stand on one page."""
 
@@ -77,12 +83,13 @@ def write_pdf(
     with matplotlib.rc_context({"pdf.fonttype": 42}):
         pages = laid_out(document, drawings, translation)
         # Without a date the same run gives the same file.
-        metadata = {"Title": document.title, "CreationDate": None}
+        about = {"Title": document.title, "Subject": document.subtitle, "Author": document.control.author or None}
+        metadata = {**{name: str(text) for name, text in about.items() if text}, "CreationDate": None}
         with whole_file(path) as part, closing(PageFile(part, metadata=metadata)) as file:
             for number, page in enumerate(pages, start=1):
                 page.write(file)
                 finished(number, len(pages))
-            file.finalize()
+            file.finish(pages, translation.table.tag)
 
 
 def laid_out(document: Document, drawings: Drawings, translation: Translation = IN_ENGLISH) -> list[Page]:
@@ -90,14 +97,22 @@ def laid_out(document: Document, drawings: Drawings, translation: Translation = 
     pages = _Pages(drawings)
     pages.text(document.title, TITLE)
     pages.text(document.subtitle, TEXT)
-    pages.flow(abreast(document.summary))
-    for number, section in enumerate(document.sections, start=1):
-        pages.section(f"{number} {section.title}", section.blocks)
+    pages.flow(abreast(document.first_page))
+    titles = [f"{number} {section.title}" for number, section in enumerate(document.sections, start=1)]
+    entries = pages.contents(translation.pattern("Contents"), titles) if len(titles) >= _FEWEST_LISTED else []
+    for heading, section in zip(titles, document.sections, strict=True):
+        pages.section(heading, section.blocks)
+    begins = [number for number, page in enumerate(pages.pages, start=1) for _ in page.starts]
+    for (page, top_mm), number in zip(entries, begins, strict=False):
+        shown = str(number)
+        _put(page, shown, TEXT, LEFT_MM + PAGE_WIDTH_MM - width_mm(shown, TEXT), top_mm)
     title = shortened(document.title, PAGE_WIDTH_MM - 40.0, SMALL)
     for number, page in enumerate(pages.pages, start=1):
         foot = translation.text(Text("page {} of {}", number, len(pages.pages)))
         _put(page, title, SMALL, LEFT_MM, FOOT_MM)
         _put(page, foot, SMALL, LEFT_MM + PAGE_WIDTH_MM - width_mm(foot, SMALL), FOOT_MM)
+        if document.control.foot:
+            _put(page, shortened(document.control.foot, PAGE_WIDTH_MM, SMALL), SMALL, LEFT_MM, FOOT_MM - _FOOT_LINE_MM)
     return pages.pages
 
 
@@ -115,6 +130,19 @@ class _Pages:
         shown = list(abreast(blocks))
         self._heading(title, shown)
         self.flow(shown)
+
+    def contents(self, heading: str, titles: Sequence[str]) -> list[tuple[Page, float]]:
+        """Write the list of sections, and return where the number of the page of each goes: page and top in mm."""
+        self._need((len(titles) + 1) * LINE * TEXT.height_mm)
+        self.text(heading, STRONG, after_mm=1.0)
+        places = []
+        for title in titles:
+            line = shortened(title, PAGE_WIDTH_MM - 12.0, TEXT)
+            self._need(LINE * TEXT.height_mm)
+            places.append((self.pages[-1], self._y))
+            self._line(line, TEXT)
+        self._y += 4.0
+        return places
 
     def flow(self, blocks: Iterable[Shown]) -> None:
         """Put blocks below everything so far; pictures keep their order, and stand on the next page at the latest."""
@@ -146,6 +174,7 @@ class _Pages:
         least_mm = _least_mm(texts[0] if texts else blocks[0]) if blocks else 0.0
         self._need(_HEADING_MM + least_mm)
         self._y += 6.0
+        self.pages[-1].starts.append(Start(text, self._y))
         self.text(text, HEADING, after_mm=0.5)
         self._rule(0.8)
         self._y += 3.0

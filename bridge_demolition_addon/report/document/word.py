@@ -84,11 +84,13 @@ class _Word:
     def title(self, document: Document) -> None:
         """Write title, summary, and the foot of all pages."""
         about = self._file.core_properties
-        about.title, about.author, about.comments = document.title[:255], "", ""
+        about.title, about.author, about.comments = document.title[:255], document.control.author[:255], ""
+        about.subject = document.subtitle[:255]
         about.created = about.modified = _NO_TIME
         self._file.add_paragraph(document.title, "Title")
         self._file.add_paragraph(document.subtitle, "Subtitle")
-        self.add(document.summary)
+        self.add(document.first_page)
+        self._contents(document)
         foot = self._file.sections[0].footer.paragraphs[0]
         before, between, after = self._translation.pattern("page {} of {}").split("{}")
         foot.add_run(f"{document.title}\t{before}")
@@ -96,6 +98,8 @@ class _Word:
         foot.add_run(between)
         _add_field(foot, "NUMPAGES")
         foot.add_run(after)
+        if document.control.foot:
+            self._file.sections[0].footer.add_paragraph(document.control.foot, "Footer")
 
     def heading(self, text: str) -> None:
         """Write the heading of a section."""
@@ -117,6 +121,14 @@ class _Word:
                     self._photo(block)
                 case AnimatedModel():
                     pass  # the paragraph beside it says where it is
+
+    def _contents(self, document: Document) -> None:
+        """Write the list of sections, which Word fills with page numbers once its fields are updated."""
+        if not document.sections:
+            return
+        self._file.add_paragraph(self._translation.pattern("Contents"), _CAPTION_STYLE)
+        titles = [f"{number} {section.title}" for number, section in enumerate(document.sections, start=1)]
+        _add_field(self._file.add_paragraph(), r'TOC \o "1-1" \h', "\n".join(titles))
 
     def content(self) -> bytes:
         """Return the file."""
@@ -175,16 +187,20 @@ def _png(drawn: Figure) -> bytes:
     return file.getvalue()
 
 
-def _add_field(paragraph: Any, name: str) -> None:
-    """Add a number that Word works out, such as that of the page."""
+def _add_field(paragraph: Any, name: str, shown: str = "1") -> None:
+    """Add what Word works out, such as the number of the page, and what it shows until then."""
     from docx.oxml import OxmlElement
     from docx.oxml.ns import qn
 
     field = OxmlElement("w:fldSimple")
     field.set(qn("w:instr"), name)
-    run, text = OxmlElement("w:r"), OxmlElement("w:t")
-    text.text = "1"
-    run.append(text)
+    run = OxmlElement("w:r")
+    for number, line in enumerate(shown.split("\n")):
+        if number:
+            run.append(OxmlElement("w:br"))
+        text = OxmlElement("w:t")
+        text.text = line
+        run.append(text)
     field.append(run)
     paragraph._p.append(field)
 

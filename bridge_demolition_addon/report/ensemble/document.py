@@ -11,6 +11,7 @@ from ...model.study.file import Study
 from ...model.study.runs_table import DONE
 from ...texts import Quantity, Text, joined
 from ..document.blocks import Block, Column, DataTable, Document, Listing, Paragraph, Section, facts
+from ..sections.control import document_control
 from ..sections.cover import trust_section
 from ..wording.numbers import percent
 from ..wording.study import input_names, success_sentence
@@ -108,7 +109,8 @@ def ensemble_document(
     article = "an" if ensemble.kind[0] in "aeiou" else "a"
     of_kind = f"Report of {article} {ensemble.kind} with {{}} simulated demolitions. Bridge Demolition Add-on {{}}"
     subtitle = Text(of_kind, len(runs.table), version)
-    return Document(ensemble.scenario.title, subtitle, tuple(filter(None, sections)), summary)
+    control = document_control(ensemble.scenario, {"program": runs.versions.get("bridge_demolition_addon", "")})
+    return Document(ensemble.scenario.title, subtitle, tuple(filter(None, sections)), summary, control)
 
 
 def statement_section(runs: ReportedEnsemble, sentences: Sequence[str], warnings: Iterable[str] = ()) -> Section:

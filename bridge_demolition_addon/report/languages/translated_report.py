@@ -51,7 +51,13 @@ def translated_document(document: Document, translation: Translation) -> Documen
         Section(translation.label(section.title), _blocks(section.blocks, translation)) for section in document.sections
     )
     title, subtitle = translation.text(document.title), translation.text(document.subtitle)
-    return Document(title, subtitle, sections, _blocks(document.summary, translation))
+    control = replace(
+        document.control,
+        cover=tuple(_table(table, translation) for table in document.control.cover),
+        signatures=tuple(_table(table, translation) for table in document.control.signatures),
+        foot=translation.text(document.control.foot),
+    )
+    return Document(title, subtitle, sections, _blocks(document.summary, translation), control)
 
 
 def with_notes(document: Document, notes: Sequence[str]) -> Document:

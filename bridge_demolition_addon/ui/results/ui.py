@@ -5,11 +5,13 @@ from pathlib import Path
 import bpy
 
 from ...errors import OutputError
+from ...model.scenario import ReportSettings
 from ...simulation.kept_run import has_run
 from .. import key_figures as figures_in_view
 from ..key_figures import peak_of_selected
 from ..languages.words import translated
 from ..recording.session import last_recording
+from ..scenario.ui import draw_keys
 from ..sidebar import SidebarPanel, draw_of_one_cut, draw_sentence
 from .operator import can_report, report_of
 from .shown_run import LargestValue, shown_run, why_no_run
@@ -104,3 +106,13 @@ class BDA_PT_report(SidebarPanel, bpy.types.Panel):
         if path := report_of(context.scene):
             text = translated("Made: {}").format(Path(path.parent.name, path.name))
             draw_sentence(self.layout, context, text, icon="CHECKMARK")
+
+
+class BDA_PT_document(SidebarPanel, bpy.types.Panel):
+    """What identifies the report: project, people, revision."""
+
+    bl_label = "Document Control"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        group = context.scene.bda.scenario.report
+        draw_keys(self.layout, context, group, ReportSettings, without=("units", "language"))

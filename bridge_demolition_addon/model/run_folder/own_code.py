@@ -1,0 +1,26 @@
+"""Digest of this program's own code: which program calculated a run, of which one version has many while it is made."""
+
+from __future__ import annotations
+
+import hashlib
+from functools import cache
+from pathlib import Path
+
+from ...engineering.core.library import core_sources
+
+_PACKAGE = Path(__file__).resolve().parents[2]
+_CALCULATING = ("bullet", "engineering", "model", "scene", "simulation", "system")
+"""Layers of this package that decide the result."""
+
+_SHORT = 12
+
+
+@cache
+def own_code() -> str:
+    """Return the digest of the layers that calculate, and of the compiled core, in hexadecimal digits."""
+    digest = hashlib.sha256(core_sources().encode())
+    for layer in _CALCULATING:
+        for path in sorted((_PACKAGE / layer).rglob("*.py")):
+            digest.update(path.relative_to(_PACKAGE).as_posix().encode() + b"\0")
+            digest.update(path.read_bytes().replace(b"\r\n", b"\n") + b"\0")
+    return digest.hexdigest()[:_SHORT]
