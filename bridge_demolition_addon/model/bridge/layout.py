@@ -22,6 +22,7 @@ from ..scenario.bridge_checks import (
     leg_axes_m,
     road_line,
 )
+from ..scenario.half_joints import DeckPart, deck_parts
 
 
 def pier_axes(bridge: Bridge) -> np.ndarray:
@@ -33,11 +34,34 @@ def deck_ends(bridge: Bridge) -> list[tuple[float, float]]:
     """Begin and end along the road of every deck, in the middle of the road, m: one, or one for each span."""
     overhang = bridge.deck.overhang_m
     first, last = -overhang, bridge.spans_m + overhang
+    if bridge.half_joints:
+        return [part.slab_m for part in parts_of_deck(bridge)]
     if not bridge.deck.per_span:
         return [(first, last)]
     half_gap = bridge.deck.joint_gap_m / 2.0
     joints = [side for axis in pier_axes(bridge)[1:-1] for side in (axis - half_gap, axis + half_gap)]
     return list(pairwise([first, *joints, last]))[::2]
+
+
+def parts_of_deck(bridge: Bridge) -> list[DeckPart]:
+    """Return the parts that half-joints divide a deck into."""
+    ends = -bridge.deck.overhang_m, bridge.spans_m + bridge.deck.overhang_m
+    return deck_parts(bridge.half_joints, pier_axes(bridge).tolist(), ends)
+
+
+def deck_seats(bridge: Bridge) -> list[tuple[float, ...]]:
+    """Return the positions along the road at which each deck is carried, m."""
+    if bridge.half_joints:
+        return [part.seats_m for part in parts_of_deck(bridge)]
+    axes = tuple(pier_axes(bridge).tolist())
+    decks = len(deck_ends(bridge))
+    return [axes[deck : deck + 2] if decks > 1 else axes for deck in range(decks)]
+
+
+def deck_prefixes(bridge: Bridge) -> list[str]:
+    """Return what the names of all decks, and of girders below them, begin with."""
+    decks, kind = len(deck_ends(bridge)), "part" if bridge.half_joints else "span"
+    return [f"{kind} {number} " for number in range(1, decks + 1)] if decks > 1 else [""]
 
 
 def bridge_facts(bridge: Bridge, *, is_flat: bool) -> Iterator[Fact]:

@@ -10,8 +10,9 @@ from ...engineering.geometry.road_lines import road_prism
 from ...engineering.geometry.solids import box, difference, union
 from ..scenario import Bridge
 from ..scenario.bridge_checks import deck_top, deck_underside, road_line, slab_underside
+from ..scenario.half_joints import DeckPart
 from ..schema import SHORTEST_LENGTH_M, given
-from .layout import deck_ends, placed, skewed, without_shear
+from .layout import deck_ends, deck_prefixes, parts_of_deck, placed, skewed, without_shear
 from .member import Member
 from .substructure import deck_profile
 
@@ -21,22 +22,67 @@ _BEYOND_M = 1.0
 
 def superstructure(bridge: Bridge) -> list[Member]:
     """Every deck, a box girder with its slab, and every girder."""
-    ends = deck_ends(bridge)
-    parts, line = [], road_line(bridge)
-    for number, (begin, end) in enumerate(ends, start=1):
-        prefix = f"span {number} " if len(ends) > 1 else ""
-        parts.append(_deck(bridge, f"{prefix}deck", begin, end))
+    members, line, own = [], road_line(bridge), without_shear(bridge)
+    for number, (prefix, (begin, end)) in enumerate(zip(deck_prefixes(bridge), deck_ends(bridge), strict=True)):
+        part = parts_of_deck(bridge)[number] if bridge.half_joints else None
+        if part and not bridge.girders:
+            members.append(_with_nibs(bridge, f"{prefix}deck", "deck", part, 0.0, bridge.deck.width_m))
+        else:
+            members.append(_deck(bridge, f"{prefix}deck", begin, end))
         for girder in range(bridge.girders.number if bridge.girders else 0):
+            name = f"{prefix}girder {girder + 1}"
+            if part:
+                across = _girder_axes(bridge)[girder]
+                members.append(_with_nibs(bridge, name, "girder", part, across, given(bridge.girders).width_m))
+                continue
             solid = placed(bridge, _girder(bridge, begin, end, girder))
-            own = without_shear(bridge)
-            parts.append(Member(f"{prefix}girder {girder + 1}", "girder", solid, unskewed=own, line=line))
-    return parts
+            members.append(Member(name, "girder", solid, unskewed=own, line=line))
+    return members
+
+
+def _with_nibs(bridge: Bridge, name: str, kind: str, part: DeckPart, across_m: float, width_m: float) -> Member:
+    """Return a part of a slab or of a girder with the nibs by which it lies on others, or these on it."""
+    low, high = deck_underside(bridge), slab_underside(bridge) if kind == "girder" else deck_top(bridge)
+    middle = 0.5 * (low + high)
+
+    def piece(along_m: tuple[float, float], below: float, above: float, beyond_m: float = 0.0) -> TriangleMesh:
+        (begin, end), wide = along_m, width_m + 2.0 * beyond_m
+        size = (end - begin, wide, above - below)
+        sides = [across_m - 0.5 * width_m, across_m + 0.5 * width_m] if beyond_m else []
+        return _along_road(bridge, size, ((begin + end) / 2.0, across_m, (below + above) / 2.0), sides)
+
+    begin, end = part.whole_m
+    cut = []
+    for nibs, below, above in (
+        (part.lower_nibs_m, middle, high + _BEYOND_M),
+        (part.upper_nibs_m, low - _BEYOND_M, middle),
+    ):
+        for first, last in nibs:
+            at = (first - _BEYOND_M, part.begin_m) if last <= part.begin_m else (part.end_m, last + _BEYOND_M)
+            cut.append(placed(bridge, piece(at, below, above, _BEYOND_M)))
+    bodies = [(part.begin_m, part.end_m)]
+    if kind == "deck":
+        bodies = list(pairwise(_bends(bridge, *bodies[0])))
+    pieces = [
+        *(piece(body, low, high) for body in bodies),
+        *(piece(nib, low, middle) for nib in part.lower_nibs_m),
+        *(piece(nib, middle, high) for nib in part.upper_nibs_m),
+    ]
+    return Member(
+        name,
+        kind,
+        difference(placed(bridge, piece((begin, end), low, high)), cut),
+        parts=tuple(placed(bridge, one) for one in pieces),
+        unskewed=without_shear(bridge),
+        line=road_line(bridge),
+        has_nibs=True,
+    )
 
 
 def cast_decks(bridge: Bridge) -> Iterator[tuple[str, list[str]]]:
     """Yield the names of decks and of the girders that each is cast with."""
-    decks, number = len(deck_ends(bridge)), bridge.girders.number if bridge.girders else 0
-    for prefix in [f"span {span} " for span in range(1, decks + 1)] if decks > 1 else [""]:
+    number = bridge.girders.number if bridge.girders else 0
+    for prefix in deck_prefixes(bridge):
         yield f"{prefix}deck", [f"{prefix}girder {girder}" for girder in range(1, number + 1)]
 
 
@@ -69,8 +115,12 @@ def _along_road(
 def _bends(bridge: Bridge, begin: float, end: float) -> list[float]:
     """Return the positions along the road from a begin to an end at which what lies there has corners."""
     line = road_line(bridge)
-    inner = [] if line is None else [place for place in line.stations_m.tolist() if begin < place < end]
-    return [begin, *inner, end]
+    if line is None:
+        return [begin, end]
+    # Of what is warped, all that touches has corners where a girder ends.
+    of_parts = [place for part in parts_of_deck(bridge) for place in (part.begin_m, part.end_m, *part.whole_m)]
+    places = sorted({*line.stations_m.tolist(), *(of_parts if bridge.half_joints else ())})
+    return [begin, *(place for place in places if begin < place < end), end]
 
 
 def _slab(bridge: Bridge, begin: float, end: float) -> TriangleMesh:

@@ -28,6 +28,7 @@ from .dead_loads import DeadLoad
 from .fracture import Finer, FracturePoint, FractureSettings, MemberFracture
 from .geometry import Geometry
 from .girders import GirderSpan
+from .half_joints import HalfJoint
 from .haunches import Haunches
 from .jackhammer import Jackhammer
 from .joint_settings import ConnectionBetween
@@ -71,6 +72,7 @@ __all__ = [
     "Girders",
     "Ground",
     "GroundSurface",
+    "HalfJoint",
     "Haunches",
     "Jackhammer",
     "Lift",

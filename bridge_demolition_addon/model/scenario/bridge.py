@@ -1,7 +1,9 @@
 """The bridge: its parts, its spans and what it weighs."""
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from itertools import accumulate
 from typing import ClassVar
 
 from ...engineering.arithmetic import cosine, sine
@@ -11,6 +13,7 @@ from .arch import Arch, RigidFrame
 from .bearings import BearingOfBridge
 from .bridge_checks import check_bridge
 from .bridge_parts import Abutments, BoxGirder, BridgeBearings, Deck, Girders, PierCaps, Piers, Voids
+from .half_joints import BEHIND, HalfJoint, pinned_supports
 from .haunches import Haunches
 from .reinforcement import BridgeReinforcement
 
@@ -58,6 +61,7 @@ class Bridge(Table):
     box_girder: BoxGirder | None = None
     voids: Voids | None = None
     haunches: Haunches | None = None
+    half_joints: tuple[HalfJoint, ...] = ()
     piers: Piers | None = None
     pier_caps: PierCaps | None = None
     abutments: Abutments | None = None
@@ -82,9 +86,14 @@ class Bridge(Table):
         if self.frame:
             return tuple(self.bearings.between(above, below, is_pinned=False) for below in (supports[0], supports[-1]))
         if not self.deck.per_span or len(self.span_lengths_m) == 1:
-            pinned = (self.bearings.pinned_at or 1) - 1
-            return tuple(
-                self.bearings.between(above, below, is_pinned=number == pinned) for number, below in enumerate(supports)
+            axes = list(accumulate(self.span_lengths_m, initial=0.0))
+            pinned = pinned_supports(self.half_joints, axes, (self.bearings.pinned_at or 1) - 1)
+            return (
+                *(
+                    self.bearings.between(above, below, is_pinned=number in pinned)
+                    for number, below in enumerate(supports)
+                ),
+                *self._bearings_of_half_joints(axes, self.bearings),
             )
         above = "girder *" if self.girders else "deck"
         return tuple(
@@ -92,6 +101,14 @@ class Bridge(Table):
             for span in range(1, len(self.span_lengths_m) + 1)
             for end in (0, 1)
         )
+
+    def _bearings_of_half_joints(self, axes: list[float], bearings: BridgeBearings) -> Iterator[BearingOfBridge]:
+        ordered = sorted(self.half_joints, key=lambda joint: joint.position_m(axes))
+        kinds = [f"girder {number}" for number in range(1, self.girders.number + 1)] if self.girders else ["deck"]
+        for number, joint in enumerate(ordered, start=1):
+            above, below = (number + 1, number) if joint.carried == BEHIND else (number, number + 1)
+            for kind in kinds:
+                yield bearings.between(f"part {above} {kind}", f"part {below} {kind}", is_pinned=joint.pinned)
 
     def _support_names(self) -> list[str]:
         """Names of what carries the deck at each axis, from the first end on."""

@@ -18,6 +18,7 @@ from ..schema import FARTHEST_M, ROUNDING, Table, check_exactly_one, given
 from .alignment import Alignment
 from .arch import Arch, RigidFrame
 from .bridge_parts import Abutments, BridgeBearings, Girders, Piers
+from .half_joints import check_half_joints, pinned_supports
 from .haunches import Haunches
 from .reinforcement import BridgeReinforcement
 
@@ -163,6 +164,8 @@ def check_bridge(bridge: Bridge) -> None:
         _check_line(bridge)
     if bridge.piers:
         _check_room_across(bridge, bridge.piers)
+    if bridge.half_joints:
+        _check_half_joints(bridge)
     if bridge.merge:
         _check_one_density(bridge)
     if bridge.arch:
@@ -371,6 +374,23 @@ def _check_columns_under_girders(bridge: Bridge, piers: Piers, girders: Girders,
         if min(apart) >= reach * (1.0 - ROUNDING):
             wanted = f"as many as bridge.girders.number, {number}, or bridge.pier_caps"
             raise piers.unexpected("columns", f"{wanted}, as a column stands between two girders and carries nothing")
+
+
+def _check_half_joints(bridge: Bridge) -> None:
+    for name in ("arch", "frame", "merge", "box_girder"):
+        if getattr(bridge, name):
+            raise ScenarioError(f"bridge.half_joints and bridge.{name} are given together: expected at most one")
+    if bridge.deck.per_span:
+        raise bridge.deck.unexpected("per_span", "false with bridge.half_joints, which divide one deck")
+    if bridge.bearings is None:
+        raise ScenarioError("bridge.bearings is missing: expected a table with bridge.half_joints")
+    if bridge.reinforcement and bridge.reinforcement.is_designed:
+        raise ScenarioError(
+            "bridge.reinforcement is designed for loads: expected [[bridge.reinforcement.ratios]] with "
+            "bridge.half_joints, or [[reinforcement]]: a deck with hinges is not designed"
+        )
+    check_half_joints(bridge.half_joints, axes_m(bridge), _half_support_m(bridge))
+    pinned_supports(bridge.half_joints, axes_m(bridge), (bridge.bearings.pinned_at or 1) - 1)
 
 
 def _check_one_density(bridge: Bridge) -> None:

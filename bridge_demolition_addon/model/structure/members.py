@@ -134,7 +134,8 @@ def fractured_members(
         if cuts and not len(own_points[index]) and (pieces := _in_pieces(cut, cuts)) is not cut:
             cut, options = pieces, replace(options, stretch=options.stretch or through_thickness(member.solid))
         # Each part takes one shard at least, but of those that a bridge is made of by rule.
-        as_planned = cut is whole and not (member.keeps_parts or member.is_in_pieces or index in stations)
+        keeps_parts = member.keeps_parts or member.is_in_pieces or member.has_nibs
+        as_planned = cut is whole and not (keeps_parts or index in stations)
         count = int(counts[index]) if as_planned else max(int(counts[index]), len(cut.parts))
         try:
             found = _fractured(cut, count, own_points[index], int(seeds[index]), options)

@@ -9,7 +9,7 @@ from itertools import product
 import numpy as np
 
 from ...engineering.reinforced_concrete.bending import flange_width_m
-from ..bridge.layout import pier_axes
+from ..bridge.layout import deck_seats
 from ..bridge.member import Member
 from ..bridge.superstructure import cast_decks
 from ..materials import BarLayer, ReinforcedSection
@@ -96,9 +96,8 @@ def t_beams(scenario: Scenario, layers: Sequence[BarLayer], members: Sequence[Me
     groups = [group for group in layers_of_members(layers, members) if not group.layers[0].own_axes]
     along = [group for group in groups if group.axes[0] == 0]
     rows = {member.name: row for row, member in enumerate(members) if is_concrete(scenario, member)}
-    axes, decks = tuple(pier_axes(bridge).tolist()), list(cast_decks(bridge))
-    for span, (deck_name, girders) in enumerate(decks):
-        supports = axes[span : span + 2] if len(decks) > 1 else axes
+    seats = deck_seats(bridge)
+    for supports, (deck_name, girders) in zip(seats, cast_decks(bridge), strict=True):
         of_deck = [group for group in along if group.member == rows.get(deck_name)]
         for number, name in enumerate(girders):
             of_girder = [group for group in along if group.member == rows.get(name)]
