@@ -28,6 +28,8 @@ def add_to(commands: argparse._SubParsersAction) -> None:
         shown = _shown(name, getattr(usual, name)).replace("%", "%%")
         option, text = f"--{name.removesuffix('_m')}", f"{question} ({shown})"
         parser.add_argument(option, dest=name, type=read, metavar=metavar, help=text)
+    for name, (metavar, meaning) in _OF_THE_ROAD.items():
+        parser.add_argument(f"--{name.partition('_')[0]}", dest=name, type=_signed, metavar=metavar, help=meaning)
     parser.set_defaults(execute=new)
 
 
@@ -40,7 +42,8 @@ def new(arguments: argparse.Namespace) -> None:
         raise OutputError(f"{file}: folder {file.parent} is not there; make it first")
     if file.exists():
         raise OutputError(f"{file}: exists already; choose another name")
-    given = {name: getattr(arguments, name) for name in _QUESTIONS if getattr(arguments, name) is not None}
+    names = (*_QUESTIONS, *_OF_THE_ROAD)
+    given = {name: getattr(arguments, name) for name in names if getattr(arguments, name) is not None}
     answers = replace(Answers(), **given)
     if sys.stdin.isatty():
         for name in _QUESTIONS:
@@ -79,6 +82,10 @@ def _length(text: str) -> float:
     return quantity(text.replace(",", "."))
 
 
+def _signed(text: str) -> float:
+    return -_length(text[1:]) if text.startswith("-") else _length(text)
+
+
 def _spans(text: str) -> tuple[float, ...]:
     """Return lengths that blanks or semicolons separate, so that a decimal comma is one."""
     spans = tuple(_length(part) for part in text.replace(";", " ").split())
@@ -102,3 +109,11 @@ _QUESTIONS: dict[str, tuple[Callable[[str], Any], str, str]] = {
     "by": (_method, "|".join(METHODS), "What brings it down?"),
 }
 """Of each answer: how it is read, what stands for it in the help, and the question."""
+
+_OF_THE_ROAD = {
+    "grade_percent": ("PERCENT", "slope along the road, above 0 where it rises; the deck is level without it"),
+    "crossfall_percent": ("PERCENT", "slope across the road, above 0 where its left side is higher"),
+    "radius_m": ("M", "radius of the road in plan, above 0 where it turns to the left; it is straight without it"),
+    "haunch_m": ("M", "how much deeper the slab is over inner piers; it is as deep everywhere without it"),
+}
+"""Of each option that is not asked for: what stands for it in the help, and its meaning."""

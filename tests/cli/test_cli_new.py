@@ -52,6 +52,19 @@ def test_the_middle_pier_carries_what_three_moments_give(tmp_path):
     assert float(facts(path)["deck on pier 2"].split()[0]) * 1e3 == pytest.approx(expected, rel=0.02)
 
 
+@pytest.mark.parametrize("by", METHODS)
+def test_a_haunched_bridge_on_a_curved_ramp_stands(tmp_path, capsys, by):
+    path = tmp_path / "ramp.toml"
+    options = ["--grade", "4", "--crossfall", "-2.5", "--radius", "-80", "--haunch", "0.4", "--by", by]
+    assert main(["new", str(path), *options]) == 0
+    capsys.readouterr()
+    bridge = read_scenario(path).bridge
+    assert (bridge.alignment.grade_percent, bridge.alignment.crossfall_percent) == (4.0, -2.5)
+    assert (bridge.alignment.radius_m, bridge.haunches.depth_m, bridge.haunches.length_m) == (-80.0, 0.4, 3.75)
+    assert main(["check", str(path)]) == 0  # what falls or detonates is over the deck, or beside its pier
+    assert "The bridge stands under its own weight" in capsys.readouterr().out
+
+
 def test_it_runs_and_stands_until_a_pier_is_taken_away(tmp_path):
     path, output = tmp_path / "bridge.toml", tmp_path / "results"
     assert main(["new", str(path), "--spans", "8", "--width", "4", "--title", "Short bridge"]) == 0
@@ -92,6 +105,9 @@ def test_an_end_of_the_questions_is_no_traceback(tmp_path, monkeypatch, capsys):
         (["--spans", " "], "argument --spans: ' ' is wrong: expected lengths in m, such as '15 20 15'"),
         (["--by", "rocket"], "argument --by: 'rocket' is wrong: expected one of removal, ball, charge"),
         (["--width", "0.0001"], "bridge.deck.width_m is 0.0001: expected a number from 0.001 to 10000.0 (m)"),
+        (["--radius", "7"], "bridge.alignment.radius_m is 7.0: expected more than 8 (m) or less than -8"),
+        (["--haunch", "5"], "bridge.haunches.depth_m is 5.0: expected less than bridge.piers.height_m"),
+        (["--grade", "20"], "bridge.alignment.grade_percent is 20.0: expected a number from -15 to 15 (%)"),
         (["--spans", "0.5"], "bridge.piers.column_length_m is 0.8: expected less than the shortest span"),
     ],
 )

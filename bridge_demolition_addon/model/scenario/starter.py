@@ -7,6 +7,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from ...engineering.arithmetic import cosine, sine
 from ...errors import ScenarioError
 
 _THICKNESS_OVER_SPAN = 1.0 / 16.0
@@ -14,11 +15,12 @@ _THICKNESS_OVER_SPAN = 1.0 / 16.0
 
 _LEAST_THICKNESS_M = 0.5
 _SHARDS_OF_A_SPAN = 80
+_HAUNCH_OVER_SPAN = 0.25
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Answers:
-    """What `bda new` asks: the bridge in five answers, and what is done to it."""
+    """What `bda new` asks: the bridge in five answers, and what is done to it; and what options add to it."""
 
     title: str = "My bridge"
     spans_m: tuple[float, ...] = (15.0, 15.0)
@@ -26,6 +28,10 @@ class Answers:
     thickness_m: float | None = None  # None for one that suits the longest span
     height_m: float = 5.0  # of the piers
     by: str = "removal"
+    grade_percent: float | None = None
+    crossfall_percent: float | None = None
+    radius_m: float | None = None
+    haunch_m: float | None = None
 
     @property
     def slab_m(self) -> float:
@@ -33,6 +39,13 @@ class Answers:
         if self.thickness_m is not None:
             return self.thickness_m
         return max(_LEAST_THICKNESS_M, round(_THICKNESS_OVER_SPAN * max(self.spans_m), 2))
+
+    def place_m(self, along_m: float) -> tuple[float, float]:
+        """Return where the middle of the road is in plan, at a position along it."""
+        if self.radius_m is None:
+            return along_m, 0.0
+        turn = along_m / self.radius_m
+        return self.radius_m * float(sine(turn)), self.radius_m * (1.0 - float(cosine(turn)))
 
 
 def starter_text(answers: Answers) -> str:
@@ -46,10 +59,25 @@ def starter_text(answers: Answers) -> str:
         width=_number(answers.width_m),
         thickness=_number(answers.slab_m),
         height=_number(answers.height_m),
+        line=_line(answers),
         wall=_number(0.75 * answers.width_m),
         shards=_SHARDS_OF_A_SPAN * len(answers.spans_m),
         action=METHODS[answers.by](answers),
     )
+
+
+def _line(answers: Answers) -> str:
+    """Return the tables of a road that is not level and straight, and of haunches."""
+    keys = [
+        f"{name} = {_number(value)}\n"
+        for name in ("grade_percent", "crossfall_percent", "radius_m")
+        if (value := getattr(answers, name)) is not None
+    ]
+    text = "".join(["[bridge.alignment]\n", *keys, "\n"]) if keys else ""
+    if answers.haunch_m is not None:
+        length = _number(round(_HAUNCH_OVER_SPAN * min(answers.spans_m), 2))
+        text += f'[bridge.haunches]\nlength_m = {length}\ndepth_m = {_number(answers.haunch_m)}\nshape = "parabola"\n\n'
+    return text
 
 
 def _number(value: float) -> str:
@@ -67,13 +95,14 @@ members = ["pier {1 + len(answers.spans_m) // 2}"]
 
 def _ball(answers: Answers) -> str:
     middle = math.fsum(answers.spans_m[: len(answers.spans_m) // 2]) + answers.spans_m[len(answers.spans_m) // 2] / 2.0
+    x, y = (_number(round(value, 3)) for value in answers.place_m(middle))
     return f"""\
 # What is done: a crane drops a steel ball. A slab with bars may carry that: a search, as in docs/search.md, says how
 # heavy it has to be.
 [ball]
 mass_kg = 8000
 diameter_m = 1.25                # a ball of steel of this mass
-target_m = [{_number(middle)}, 0.0]          # along the road from the first pier, across it from its middle
+target_m = [{x}, {y}]          # along the road from the first pier, across it from its middle
 drop_height_m = 10.0             # clear height above the deck
 release_time_s = 0.1
 """
@@ -82,6 +111,7 @@ release_time_s = 0.1
 def _charges(answers: Answers) -> str:
     number = len(answers.spans_m) // 2
     along = math.fsum(answers.spans_m[:number]) - 0.8
+    x, y = (_number(round(value, 3)) for value in answers.place_m(along))
     return f"""\
 # What is done: a charge detonates beside a pier. It is bare and in air, so that it takes far more than charges in
 # drill holes, which [[blast_zones]] have: see docs/drilled_charges.md.
@@ -90,7 +120,7 @@ start_s = 0.5
 apply = "direct"
 
 [[charges]]
-position_m = [{_number(along)}, 0.0, {_number(answers.height_m / 2.0)}]  # along the road, across it, above the ground
+position_m = [{x}, {y}, {_number(answers.height_m / 2.0)}]  # along the road, across it, above the ground
 mass_kg = 300                    # of TNT
 """
 
@@ -114,7 +144,7 @@ duration_s = 4.0                 # longer, until everything rests
 density_kg_m3 = 2500             # reinforced concrete
 span_lengths_m = [{spans}]
 
-[bridge.deck]
+{line}[bridge.deck]
 width_m = {width}
 thickness_m = {thickness}
 overhang_m = 0.5                 # of the deck beyond the axes of the first and the last pier
