@@ -34,6 +34,8 @@ class RoadLine:
         Radius in plan, above 0 where the road turns to the left; None of a straight one. What is curved has no skew.
     level_m, factors
         Height h below which all is deeper by such factors (n,); None of one depth.
+    bends_m
+        Of a curved line the stations (k,) between which it is straight in plan, the first and the last among them.
     axis_m, heading_rad
         Of a straight line its origin in plan (2,), at s = `begin_m`, and its direction.
     """
@@ -43,6 +45,7 @@ class RoadLine:
     crossfalls: FloatArray
     shift_across: float = 0.0
     radius_m: float | None = None
+    bends_m: FloatArray | None = None
     level_m: float = 0.0
     factors: FloatArray | None = None
     axis_m: tuple[float, float] = (0.0, 0.0)
@@ -53,14 +56,15 @@ class RoadLine:
         """Return positions (..., 3) of s, t, h (..., 3)."""
         s, t, h = np.moveaxis(own_m, -1, 0)
         part, share = self._part(s)
-        if self.radius_m is None:
+        if self.radius_m is None or self.bends_m is None:
             plan = self._turned(np.stack((s - self.begin_m + t * self.shift_across, t), axis=-1), 1.0)
             x, y = plan[..., 0] + self.axis_m[0], plan[..., 1] + self.axis_m[1]
         else:
-            first, other = self.stations_m[part] / self.radius_m, self.stations_m[part + 1] / self.radius_m
+            bend, along = _part(s, self.bends_m)
+            first, other = self.bends_m[bend] / self.radius_m, self.bends_m[bend + 1] / self.radius_m
             outwards = self.radius_m - t
-            x = outwards * _between(sine(first), sine(other), share)
-            y = self.radius_m - outwards * _between(cosine(first), cosine(other), share)
+            x = outwards * _between(sine(first), sine(other), along)
+            y = self.radius_m - outwards * _between(cosine(first), cosine(other), along)
         if self.factors is not None:
             deeper = _between(self.factors[part], self.factors[part + 1], share)
             h = np.where(h < self.level_m, self.level_m + deeper * (h - self.level_m), h)
@@ -88,10 +92,10 @@ class RoadLine:
 
     def _from_plan(self, x: FloatArray, y: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return s and t of positions in plan."""
-        if self.radius_m is None:
+        if self.radius_m is None or self.bends_m is None:
             plan = self._turned(np.stack((x - self.axis_m[0], y - self.axis_m[1]), axis=-1), -1.0)
             return plan[..., 0] - plan[..., 1] * self.shift_across + self.begin_m, plan[..., 1]
-        return self._from_curve(x, y, self.radius_m)
+        return _from_curve(x, y, self.radius_m, self.bends_m)
 
     def directions(self, own_m: FloatArray, axis: int) -> FloatArray:
         """Return the directions (k, 3), of length 1, of lines along an axis through s, t, h (k, 3)."""
@@ -102,20 +106,6 @@ class RoadLine:
         """Return a solid whose corners were s, t, h in its place."""
         return TriangleMesh(self.to_world(solid.vertices), solid.triangles)
 
-    def _from_curve(self, x: FloatArray, y: FloatArray, radius_m: float) -> tuple[FloatArray, FloatArray]:
-        """Return s and t of positions: between stations a section goes through the middle of the curve as well."""
-        side = np.copysign(1.0, radius_m)
-        from_centre = radius_m - y
-        s = radius_m * arctangent(side * x, side * from_centre)
-        part, _ = self._part(s)
-        first, other = self.stations_m[part] / radius_m, self.stations_m[part + 1] / radius_m
-        half, middle = 0.5 * (other - first), 0.5 * (first + other)
-        along = x * cosine(middle) - from_centre * sine(middle)
-        outwards = (x * sine(middle) + from_centre * cosine(middle)) / cosine(half)
-        share = 0.5 + 0.5 * along / (outwards * sine(half))
-        s = _between(self.stations_m[part], self.stations_m[part + 1], share)
-        return s, radius_m - outwards
-
     def _turned(self, plan_m: FloatArray, way: float) -> FloatArray:
         if self.heading_rad == 0.0:
             return plan_m
@@ -124,15 +114,32 @@ class RoadLine:
         return np.stack((along * x - left * y, left * x + along * y), axis=-1)
 
     def _part(self, s: FloatArray) -> tuple[IntArray, FloatArray]:
-        """Return between which stations positions are, and at which share of their distance."""
-        part = np.clip(np.searchsorted(self.stations_m, s, side="right") - 1, 0, len(self.stations_m) - 2)
-        begin = self.stations_m[part]
-        return part, (s - begin) / (self.stations_m[part + 1] - begin)
+        return _part(s, self.stations_m)
 
     def _rise(self, part: IntArray, share: FloatArray, t: FloatArray) -> FloatArray:
         heights, falls = self.heights_m, self.crossfalls
         rise: FloatArray = _between(heights[part], heights[part + 1], share)
         return rise + t * _between(falls[part], falls[part + 1], share)
+
+
+def _part(s: FloatArray, stations_m: FloatArray) -> tuple[IntArray, FloatArray]:
+    """Return between which stations positions are, and at which share of their distance."""
+    part = np.clip(np.searchsorted(stations_m, s, side="right") - 1, 0, len(stations_m) - 2)
+    begin = stations_m[part]
+    return part, (s - begin) / (stations_m[part + 1] - begin)
+
+
+def _from_curve(x: FloatArray, y: FloatArray, radius_m: float, bends_m: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return s and t of positions: between bends a section goes through the middle of the curve as well."""
+    side = np.copysign(1.0, radius_m)
+    from_centre = radius_m - y
+    part, _ = _part(radius_m * arctangent(side * x, side * from_centre), bends_m)
+    first, other = bends_m[part] / radius_m, bends_m[part + 1] / radius_m
+    half, middle = 0.5 * (other - first), 0.5 * (first + other)
+    along = x * cosine(middle) - from_centre * sine(middle)
+    outwards = (x * sine(middle) + from_centre * cosine(middle)) / cosine(half)
+    share = 0.5 + 0.5 * along / (outwards * sine(half))
+    return _between(bends_m[part], bends_m[part + 1], share), radius_m - outwards
 
 
 def _between(first: FloatArray, other: FloatArray, share: FloatArray) -> FloatArray:

@@ -63,7 +63,7 @@ class Member:
     steel: SteelPart | None = None  # of steelwork alone, which is cut and connected by itself
     keeps_parts: bool = False  # whether each of its parts takes a shard at least, as of a deck on pieces of girders
     is_in_pieces: bool = False  # the same of what is cut into its parts first, as an arch
-    has_nibs: bool = False  # whether some of its parts are nibs of half-joints, which take a shard each
+    takes_all_parts: bool = False  # the same of nibs of half-joints, and of plates of a box girder with haunches
     # Of inclined parts: what each runs along, along the road and upwards, of length 1. They are cut square to it.
     directions: tuple[tuple[float, float], ...] = ()
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
+import numpy as np
+
 from ...engineering.geometry.mesh import TriangleMesh
 from ...engineering.geometry.road_lines import road_prism
 from ...engineering.geometry.solids import box, difference, union
@@ -15,6 +17,9 @@ from ..schema import SHORTEST_LENGTH_M, given
 from .layout import deck_ends, deck_prefixes, parts_of_deck, placed, skewed, without_shear
 from .member import Member
 from .substructure import deck_profile
+
+_STRAIGHT_M = 0.02
+"""How far corners of a deck may be off a straight piece: hulls of its shards overlap by less than that."""
 
 _BEYOND_M = 1.0
 """How far what is cut out of a box girder extends beyond its ends: any length does that leaves no skin there."""
@@ -62,7 +67,7 @@ def _with_nibs(bridge: Bridge, name: str, kind: str, part: DeckPart, across_m: f
             cut.append(placed(bridge, piece(at, below, above, _BEYOND_M)))
     bodies = [(part.begin_m, part.end_m)]
     if kind == "deck":
-        bodies = list(pairwise(_bends(bridge, *bodies[0])))
+        bodies = _straight_pieces(bridge, *bodies[0])
     pieces = [
         *(piece(body, low, high) for body in bodies),
         *(piece(nib, low, middle) for nib in part.lower_nibs_m),
@@ -75,7 +80,7 @@ def _with_nibs(bridge: Bridge, name: str, kind: str, part: DeckPart, across_m: f
         parts=tuple(placed(bridge, one) for one in pieces),
         unskewed=without_shear(bridge),
         line=road_line(bridge),
-        has_nibs=True,
+        takes_all_parts=True,
     )
 
 
@@ -95,8 +100,10 @@ def _deck(bridge: Bridge, name: str, begin: float, end: float) -> Member:
         slab = placed(bridge, _slab(bridge, begin, end))
         parts = tuple(placed(bridge, strip) for strip in _strips(bridge, begin, end))
         return Member(name, "deck", slab, parts=parts, unskewed=own, line=line)
-    plates = tuple(placed(bridge, plate) for plate in _plates(bridge, begin, end))
-    return Member(name, "deck", _box_girder(bridge, begin, end), parts=plates, unskewed=own, line=line)
+    pieces = _straight_pieces(bridge, begin, end)
+    plates = tuple(placed(bridge, plate) for piece in pieces for plate in _plates(bridge, *piece))
+    solid, is_cut = _box_girder(bridge, begin, end), len(pieces) > 1
+    return Member(name, "deck", solid, parts=plates, unskewed=own, line=line, takes_all_parts=is_cut)
 
 
 def _along_road(
@@ -121,6 +128,24 @@ def _bends(bridge: Bridge, begin: float, end: float) -> list[float]:
     of_parts = [place for part in parts_of_deck(bridge) for place in (part.begin_m, part.end_m, *part.whole_m)]
     places = sorted({*line.stations_m.tolist(), *(of_parts if bridge.half_joints else ())})
     return [begin, *(place for place in places if begin < place < end), end]
+
+
+def _straight_pieces(bridge: Bridge, begin: float, end: float) -> list[tuple[float, float]]:
+    """Return the longest pieces of a deck along the road whose underside is straight but for what matters to no hull.
+
+    On a curve in plan hulls of shards that lie on each other have nothing in common.
+    """
+    bends, line = _bends(bridge, begin, end), road_line(bridge)
+    if line is None:
+        return [(begin, end)]
+    below = np.column_stack((bends, np.zeros(len(bends)), np.full(len(bends), deck_underside(bridge))))
+    heights, corners = line.to_world(below)[:, 2], [0]
+    for last in range(2, len(bends)):
+        first = corners[-1]
+        on_chord = np.interp(bends[first:last], (bends[first], bends[last]), (heights[first], heights[last]))
+        if abs(heights[first:last] - on_chord).max() > _STRAIGHT_M:
+            corners.append(last - 1)
+    return list(pairwise([*(bends[corner] for corner in corners), end]))
 
 
 def _slab(bridge: Bridge, begin: float, end: float) -> TriangleMesh:
@@ -148,14 +173,13 @@ def _slab_edges(bridge: Bridge) -> list[float]:
 def _strips(bridge: Bridge, begin: float, end: float) -> Iterator[TriangleMesh]:
     """Yield the slab in a strip above each girder: a shard that lay on two would hold both as one body.
 
-    Without girders it is in pieces between bends of the road.
+    Without girders it is in pieces that are nearly straight.
     """
-    inner, bends = _strip_edges(bridge), _bends(bridge, begin, end)
+    inner, pieces = _strip_edges(bridge), _straight_pieces(bridge, begin, end)
     deck, edge = bridge.deck, 0.5 * bridge.deck.width_m
     height = slab_underside(bridge) + deck.thickness_m / 2.0
-    if not inner and len(bends) > 2:
-        for first, last in pairwise(bends):
-            yield box((last - first, deck.width_m, deck.thickness_m), ((first + last) / 2.0, 0.0, height))
+    if not inner and len(_bends(bridge, begin, end)) > 2:
+        yield from (_slab(bridge, *piece) for piece in pieces)
     for right, left in pairwise((-edge, *inner, edge) if inner else ()):
         middle = ((begin + end) / 2.0, (right + left) / 2.0, height)
         own = [side for side in _slab_edges(bridge) if right < side < left]

@@ -96,14 +96,22 @@ class Alignment(Table):
         It is plane over each support, across the road as well, and has more stations where its underside has corners.
         """
         supports = [(axis - half, axis + half) for axis, half in zip(axes_m, halves_m, strict=True)]
-        stations = {*ends_m, *(corner for corner in corners_m if ends_m[0] < corner < ends_m[1])}
+        corners = [corner for corner in corners_m if ends_m[0] < corner < ends_m[1]]
+        bends, between = [*ends_m], [(before[1], after[0]) for before, after in pairwise(supports)]
         if self.has_corners:
-            for (_, begin), (end, _) in pairwise(supports):
-                bends = self._between(begin, end, axes_m)
-                stations |= {begin, end, *(bend for bend in bends if _is_apart(bend, [begin, end, *corners_m]))}
+            bends += [edge for edges in between for edge in edges]
+        if self.radius_m is not None:
+            piece = _PIECE_RAD * abs(self.radius_m)
+            for begin, end in between:
+                bends += np.linspace(begin, end, math.ceil((end - begin) / piece) + 1)[1:-1].tolist()
+        stations = {*bends, *corners}
+        for begin, end in between:
+            upright = self._on_vertical_curve(begin, end, axes_m)
+            stations |= {place for place in upright if _is_apart(place, [begin, end, *bends, *corners])}
         places = np.array(sorted(stations))
         heights, falls = np.transpose([self._over(place, axes_m, supports, shift_across) for place in places.tolist()])
-        return RoadLine(places, heights, falls, shift_across, self.radius_m)
+        in_plan = None if self.radius_m is None else np.array(sorted(set(bends)))
+        return RoadLine(places, heights, falls, shift_across, self.radius_m, in_plan)
 
     def axis_line(self, axes_m: Sequence[float], number: int, shift_across: float) -> RoadLine:
         """Return the plane that the deck lies in over a support, by its number from 0, as a line with one slope."""
@@ -208,20 +216,17 @@ class Alignment(Table):
         inner = [0.5 * (before + after) for before, after in pairwise(spans)]
         return heights, [spans[0], *inner, spans[-1]]
 
-    def _between(self, begin_m: float, end_m: float, axes_m: Sequence[float]) -> list[float]:
-        """Return where the deck bends between two supports: on a curve in plan, on a vertical one and at its ends."""
-        bends: list[float] = []
-        if self.radius_m is not None:
-            count = math.ceil((end_m - begin_m) / (_PIECE_RAD * abs(self.radius_m)))
-            bends = np.linspace(begin_m, end_m, count + 1)[1:-1].tolist()
+    def _on_vertical_curve(self, begin_m: float, end_m: float, axes_m: Sequence[float]) -> list[float]:
+        """Return where the deck bends upright between two supports: on a vertical curve and at its ends."""
         if self.tops_m is not None or not self.is_bent:
-            return bends
+            return []
         before, after = self._grades()
         first, last = self._curve_m(axes_m)
         piece = math.sqrt(8.0 * _SAG_M * (last - first) / abs(after - before))
         low, high = max(begin_m, first), min(end_m, last)
-        upright = np.linspace(low, high, max(math.ceil((high - low) / piece), 1) + 1).tolist() if low < high else []
-        return [*bends, *(place for place in upright if _is_apart(place, bends))]
+        if low >= high:
+            return []
+        return np.linspace(low, high, max(math.ceil((high - low) / piece), 1) + 1).tolist()
 
     def _over(
         self,

@@ -44,7 +44,7 @@ class Haunches(Table):
         Supports extend so far to both sides of their axes.
         """
         share = np.linspace(1.0, 0.0, _PIECES + 1) if self.shape == _PARABOLA else np.array([1.0, 0.0])
-        away, depths = self.length_m + (half_m - self.length_m) * share, self.depth_m * share
+        away, depths = half_m + (self.length_m - half_m) * (1.0 - share), self.depth_m * share
         if self.shape == _PARABOLA:
             depths = depths * share
         places, values = [], []

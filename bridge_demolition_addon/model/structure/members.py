@@ -134,7 +134,7 @@ def fractured_members(
         if cuts and not len(own_points[index]) and (pieces := _in_pieces(cut, cuts)) is not cut:
             cut, options = pieces, replace(options, stretch=options.stretch or through_thickness(member.solid))
         # Each part takes one shard at least, but of those that a bridge is made of by rule.
-        keeps_parts = member.keeps_parts or member.is_in_pieces or member.has_nibs
+        keeps_parts = member.keeps_parts or member.is_in_pieces or member.takes_all_parts
         as_planned = cut is whole and not (keeps_parts or index in stations)
         count = int(counts[index]) if as_planned else max(int(counts[index]), len(cut.parts))
         try:
@@ -312,6 +312,9 @@ def _stations_m(
         # Rigid connections share no load by their stiffness, and are cut as they were in 2019.
         supports = _supports_m(members, rows[1], rows) if scenario.connections.is_elastic else []
         places = _pieces_m(begin, begin + length, supports, pieces, shortest, draw)
+        road = members[rows[0]].line
+        if road is not None and road.bends_m is not None:
+            places = _at_bends(road.bends_m, begin, begin + length, pieces)
         counts[rows] = np.maximum(counts[rows], (len(places) + 1) * np.array([len(girders), *[1] * len(girders)]))
         found |= dict.fromkeys(rows, places)
     return found
@@ -357,6 +360,14 @@ def _pieces_m(
         moved = 0.5 * draw.random(count - 1) - 0.25
         places += [low, *(low + (high - low) * (np.arange(1, count) + moved) / count).tolist(), high]
     return sorted(place for place in places if begin < place < end)
+
+
+def _at_bends(bends_m: np.ndarray, begin: float, end: float, pieces: int) -> list[float]:
+    """Return where girders on a curve are cut: at all of its bends, so that pieces are convex, and evenly between."""
+    ends = [begin, *(bend for bend in bends_m.tolist() if begin + _THIN_M < bend < end - _THIN_M), end]
+    counts = [max(round(pieces * (after - before) / (end - begin)), 1) for before, after in pairwise(ends)]
+    parts = [np.linspace(*side, count + 1)[:-1].tolist() for side, count in zip(pairwise(ends), counts, strict=True)]
+    return [place for part in parts for place in part][1:]
 
 
 def _clear_of_cuts(stations_m: Sequence[float], member: Member, cuts: Sequence[CutOfMembers]) -> list[float]:

@@ -8,6 +8,7 @@ import pytest
 from support.meshes import is_closed
 from test_alignments import contact_areas
 
+from bridge_demolition_addon.engineering.geometry.overlap import hulls, overlaps
 from bridge_demolition_addon.engineering.geometry.solids import union
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.errors import ScenarioError
@@ -188,6 +189,7 @@ strength_factor = 50
 shards = 300
 """
 WALL = 'kind = "wall"\ncolumn_length_m = 0.8\ncolumn_width_m = 10'
+BOX_GIRDER = "[bridge.box_girder]\nwidth_m = 6\ndepth_m = 1.6\nweb_thickness_m = 0.35\nbottom_thickness_m = 0.2"
 COLUMNS = "columns = 4\ncolumn_length_m = 0.8\ncolumn_width_m = 0.6"
 
 
@@ -222,3 +224,18 @@ def test_reactions_are_those_of_a_beam_of_variable_depth(on_girders, shape):
     wanted = reactions_n(lambda x: 2400 * STANDARD_GRAVITY_M_S2 * section_m2(x), about_m4)
     # Twice what constant depth has in so many shards, by bda check: shards have one depth each.
     assert list(found.values()) == pytest.approx(wanted, rel=0.04)
+
+
+@pytest.mark.parametrize("name", ["girders on a curved ramp", "box"])
+def test_hulls_of_shards_have_hardly_anything_in_common(name):
+    """Bullet takes shards for their hulls: what warps by a millimetre, and bends within 2 cm, is left of an overlap."""
+    keys = {"length_m": 5, "depth_m": 0.8, "shape": "parabola", "thickness_m": 0.25, "columns": COLUMNS}
+    text = TEXT.format(girders="[bridge.girders]\nnumber = 4\nwidth_m = 0.5\ndepth_m = 1.0", **keys)
+    text = text.replace("[bridge.deck]", "[bridge.alignment]\nradius_m = -70\ngrade_percent = 4\n[bridge.deck]")
+    if name == "box":
+        text = TEXT.format(girders=BOX_GIRDER, **(keys | {"columns": COLUMNS.replace("4", "2")}))
+    model = checked_model(scenario_from_text(text))
+    assert len(overlaps(model.shards)) == 0
+    found = overlaps(hulls(model.shards))
+    smaller = np.array([min(model.shards[shard].volume for shard in pair) for pair in found.pairs])
+    assert (found.volumes < 0.03 * smaller).all()
