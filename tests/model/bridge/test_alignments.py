@@ -349,7 +349,7 @@ yield_n_mm2 = 500
     for layer, depth_m, axis in ((0, -0.44, 0), (1, 0.44, 1)):
         of_layer = (bars.layers == layer) & (bars.pulls_n > 1.0)
         assert of_layer.sum() > 20
-        np.testing.assert_allclose(own[of_layer, 2], 6.5 + depth_m, atol=1e-3)
+        np.testing.assert_allclose(own[of_layer, 2], 6.5 + depth_m, atol=3e-3)  # over a bend, in the mean
         along = (bars.directions[of_layer] * deck.line.directions(own[of_layer], axis)).sum(axis=1)
         np.testing.assert_allclose(abs(along), 1.0, atol=1e-5)
 
