@@ -37,6 +37,7 @@ twist within a tenth of theory, and stretch within 3 %. One row of shards has no
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, fields
 
 import numpy as np
@@ -209,6 +210,9 @@ _UNEVEN = 0.65
 """Part of a - 1 and b - 1 with which plates of concrete in 40 to 600 irregular shards are nearest to theory, as
 measured: with all of it, they stretch by 4 to 8 % too much."""
 
+_ACUTE, _MOST_ALONG = 0.02, 2.0
+"""Cosine of an angle from which on a triangle of a lattice is acute, and most b over a."""
+
 _LARGEST = 0.3
 """Poisson's ratio up to which plates have its effect: beyond 1/3, b would be less than 0."""
 
@@ -226,14 +230,18 @@ def contraction_shares(shapes: MemberShapes, shards: IntArray) -> FloatArray:
 
 
 def shifting_moduli(
-    shapes: MemberShapes, shares: FloatArray, normals: FloatArray, young_pa: FloatArray, shear_pa: FloatArray
+    shapes: MemberShapes,
+    ratios: tuple[FloatArray, FloatArray],
+    normals: FloatArray,
+    young_pa: FloatArray,
+    shear_pa: FloatArray,
 ) -> FloatArray:
     """Return the moduli (m, 3, 3) with which faces within members resist shifts, Pa, in the axes of the world.
 
     Parameters
     ----------
-    shapes, shares : MemberShapes, (m,) float
-        Of the member that each face is in, and its part of Poisson's effect.
+    shapes, ratios : MemberShapes, two (m,) float
+        Of the member that each face is in, and a and b of it.
     normals : (m, 3) float
         Of the faces.
     young_pa, shear_pa : (m,) float
@@ -244,26 +252,67 @@ def shifting_moduli(
     moduli = np.zeros((len(young_pa), 3, 3))
     for axis, share in ((0, slenderness(shapes.extents_m, 2, 0)), (1, is_bar), (2, np.zeros(len(young_pa)))):
         moduli[:, axis, axis] = young_pa + share * (across - young_pa)
-    across_faces, along_faces = _ratios(shares, shear_pa / young_pa)
-    scales = _scales(shapes, normals, np.sqrt(across_faces), np.sqrt(along_faces))
+    scales = _scales(shapes, normals, *map(np.sqrt, ratios))
     return product(product(scales, in_axes(np.swapaxes(shapes.axes, 1, 2), moduli)), scales)
 
 
 def plate_turning(
-    turning_m4: FloatArray, shapes: MemberShapes, shares: FloatArray, normals: FloatArray, shear_over_young: FloatArray
+    turning_m4: FloatArray, shapes: MemberShapes, ratios: tuple[FloatArray, FloatArray], normals: FloatArray
 ) -> FloatArray:
     """Return second moments that resist turning (m, 3, 3) with Poisson's effect: more in bending, less in twist."""
-    bending, twist = _ratios(shares, shear_over_young)
+    bending, twist = ratios
     scales = _scales(shapes, normals, np.sqrt(twist), np.sqrt(bending))
     return product(product(scales, turning_m4), scales)
 
 
-def _ratios(shares: FloatArray, shear_over_young: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """a and b (m,) of plates with these parts of the effect."""
-    poisson = np.clip(0.5 / shear_over_young - 1.0, 0.0, _LARGEST)
+def contraction_ratios(shares: FloatArray, shear_over_young: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return a and b (m,) of plates in irregular shards with these parts of the effect."""
+    poisson = _poisson_ratios(shear_over_young)
     across, along = 1.0 / (1.0 - poisson), (1.0 - 3.0 * poisson) / (1.0 - poisson * poisson)
     parts = _UNEVEN * shares
     return 1.0 + parts * (across - 1.0), 1.0 + parts * (along - 1.0)
+
+
+def ratios_in_lattices(
+    pairs: IntArray, points_m: FloatArray, shear_over_young: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Return a and b (m,) of faces between pairs (m, 2) of shards around points (n, 2) of a lattice in a plate's plane.
+
+    The plate is as stiff as theory says, evenly bent or twisted, in each triangle of points whose angles are acute:
+    with a of 1 / (1 - ν) in all three of its faces, Σ w (a - b) κnt² has to be ν / (1 - ν²) of (κx - κy)² + 4 κxy²,
+    where w are cotangents of the angles across: b = a + ν / (1 - ν²) cos 2γ / (cos α cos β cos γ), γ across from the
+    face. In regular triangles it is the b that holds over all directions.
+    """
+    poisson = _poisson_ratios(shear_over_young)
+    neighbours: dict[int, set[int]] = {}
+    for one, other in pairs.tolist():
+        neighbours.setdefault(one, set()).add(other)
+        neighbours.setdefault(other, set()).add(one)
+    shares = np.zeros((2, len(pairs)))
+    for row, (one, other) in enumerate(pairs.tolist()):
+        for third in sorted(neighbours[one] & neighbours[other]):
+            cosines = _cosines(points_m[[third, one, other]])
+            if min(cosines) > _ACUTE:
+                weight = cosines[0] / math.sqrt(1.0 - cosines[0] * cosines[0])
+                twice = 2.0 * cosines[0] * cosines[0] - 1.0
+                shares[:, row] += weight, weight * twice / (cosines[0] * cosines[1] * cosines[2])
+    across = 1.0 / (1.0 - poisson)
+    mean = np.divide(shares[1], shares[0], out=np.full(len(pairs), -4.0), where=shares[0] > 0.0)
+    return across, np.clip(across + poisson / (1.0 - poisson * poisson) * mean, 0.0, _MOST_ALONG * across)
+
+
+def _cosines(corners_m: FloatArray) -> list[float]:
+    """Cosines of the angles of a triangle (3, 2) at its corners."""
+    found = []
+    for corner in range(3):
+        one, other = corners_m[corner - 1] - corners_m[corner], corners_m[corner - 2] - corners_m[corner]
+        lengths = math.sqrt(float((one * one).sum()) * float((other * other).sum()))
+        found.append(float((one * other).sum()) / lengths)
+    return found
+
+
+def _poisson_ratios(shear_over_young: FloatArray) -> FloatArray:
+    return np.clip(0.5 / shear_over_young - 1.0, 0.0, _LARGEST)
 
 
 def _scales(shapes: MemberShapes, normals: FloatArray, normal: FloatArray, aside: FloatArray) -> FloatArray:

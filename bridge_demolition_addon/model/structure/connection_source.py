@@ -38,6 +38,8 @@ class CutMembers:
         The shards, and the points from which they extend to their faces: those whose Voronoi cells they are.
     fixed : (n,) bool
         Shards that never move: like the ground, they do not deform.
+    in_lattices : (k,) bool
+        Members that are cut around a lattice of points.
     """
 
     members: Sequence[Member]
@@ -45,6 +47,7 @@ class CutMembers:
     shards: Sequence[TriangleMesh]
     points_m: np.ndarray
     fixed: np.ndarray
+    in_lattices: np.ndarray
 
     def members_of(self, pairs: np.ndarray) -> np.ndarray:
         """Return the members (k, 2) of pairs (k, 2) of shards, -1 for the ground."""

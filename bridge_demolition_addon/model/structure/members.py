@@ -38,6 +38,7 @@ from ..scenario import FractureSettings, Scenario
 from ..scenario.fracture import MemberFracture
 from ..schema import SHORTEST_LENGTH_M, given
 from .point_files import paint_from_file, points_from_file
+from .slabs_on_columns import SlabOnColumns, slabs_on_columns
 from .steelwork import bar_joints, joint_faces, steel_fracture
 
 _DENSITY_SAMPLES = 4000
@@ -84,7 +85,7 @@ class FracturedMembers:
 
     `member_of_shard` (n,) holds indices of members, `centres_m` (n, 3) centres of mass, and `points_m` (n, 3) the
     points whose Voronoi cells the shards are. `faces` are those that neighbouring shards share, the joints of steelwork
-    among them.
+    among them. `in_lattices` (k,) says which members are cut around a lattice of points.
     """
 
     shards: tuple[TriangleMesh, ...]
@@ -93,6 +94,7 @@ class FracturedMembers:
     centres_m: np.ndarray
     points_m: np.ndarray
     faces: SharedFaces
+    in_lattices: np.ndarray
 
 
 def fractured_members(
@@ -107,6 +109,10 @@ def fractured_members(
     counts = _counts(scenario, members, rules, own_points, density)
     seeds = np.random.SeedSequence(scenario.seed).generate_state(len(members))
     stations = _stations_m(scenario, members, counts, rules, own_points)
+    own_cut = [len(points) > 0 or bool(rule and rule.stretch) for points, rule in zip(own_points, rules, strict=True)]
+    on_columns = [slab for slab in slabs_on_columns(scenario, members) if not (density or own_cut[slab.member])]
+    lattices = _lattices(on_columns, members, counts, scenario.seed)
+    in_a_row = {row for slab in on_columns for row in slab.columns_in_a_row(members, counts) if not own_cut[row]}
     parts = []
     for index, member in enumerate(members):
         if member.steel is not None:
@@ -122,7 +128,9 @@ def fractured_members(
         )
         of_stations = len(member.parts or (member,)) * (1 + len(stations.get(index, ())))
         is_across = index in stations and counts[index] < _FEW * of_stations
-        if is_across:
+        if index in in_a_row:
+            is_across, options = True, replace(options, stretch=(_THROUGH_PART, _THROUGH_PART, 1.0))
+        elif is_across:
             options = replace(options, stretch=options.stretch or (1.0, _THROUGH_PART, _THROUGH_PART))
         own_planes = [plane for plane in planes if isinstance(plane, CutPlane) and plane.member == member.name]
         cuts = [cut for cut in planes if isinstance(cut, CutOfMembers) and cut.cuts((member.name, member.kind))]
@@ -138,7 +146,10 @@ def fractured_members(
         as_planned = cut is whole and not (keeps_parts or index in stations)
         count = int(counts[index]) if as_planned else max(int(counts[index]), len(cut.parts))
         try:
-            found = _fractured(cut, count, own_points[index], int(seeds[index]), options)
+            if index in lattices:
+                found = _around_lattice(cut, lattices[index], options)
+            else:
+                found = _fractured(cut, count, own_points[index], int(seeds[index]), options)
             parts.append(replace(found, points=found.centres) if is_across else found)
         except GeometryError as error:
             files = [f"{table.file}: " for table in scenario.geometry if table.name == member.name]
@@ -155,6 +166,7 @@ def fractured_members(
         faces=_all_faces(
             [part.faces for part in parts], joint_faces(joints, members), members, shards, member_of_shard
         ),
+        in_lattices=np.isin(np.arange(len(members)), list(lattices)),
     )
 
 
@@ -318,6 +330,28 @@ def _stations_m(
         counts[rows] = np.maximum(counts[rows], (len(places) + 1) * np.array([len(girders), *[1] * len(girders)]))
         found |= dict.fromkeys(rows, places)
     return found
+
+
+def _lattices(
+    on_columns: Sequence[SlabOnColumns], members: Sequence[Member], counts: np.ndarray, seed: int
+) -> dict[int, np.ndarray]:
+    """Return the points that slabs on columns are cut around, by the members' indices."""
+    found = {}
+    for slab in on_columns:
+        points = slab.points_m(int(counts[slab.member]), np.random.default_rng([seed, slab.member]))
+        if len(points):
+            found[slab.member] = members[slab.member].with_skew(points)
+    return found
+
+
+def _around_lattice(member: Member, points: np.ndarray, options: FractureOptions) -> Fracture:
+    """Cut each part of a member around the points that are in it, or whole where none is."""
+    parts = member.parts or (member.solid,)
+    within = [points[contains(part, points)] for part in parts]
+    own = [
+        inside if len(inside) else part.vertices.mean(axis=0)[None] for part, inside in zip(parts, within, strict=True)
+    ]
+    return joined_fractures([voronoi_cells(part, inside, 0, options) for part, inside in zip(parts, own, strict=True)])
 
 
 def _supports_m(members: Sequence[Member], girder: int, cast: Sequence[int]) -> list[float]:

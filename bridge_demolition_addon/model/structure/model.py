@@ -230,6 +230,7 @@ def _cut_bridge(
             scenario.steelwork, members, fractured.member_of_shard, fractured.shards, _middles(fractured)
         ),
         fixed,
+        fractured.in_lattices,
         scenario,
         fractured.centres_m,
         fractured.faces,

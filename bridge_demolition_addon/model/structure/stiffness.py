@@ -10,12 +10,14 @@ import numpy as np
 from ...engineering.elasticity.interfaces import shares_of_length, slips_by_stretching
 from ...engineering.elasticity.member_shapes import (
     MemberShapes,
+    contraction_ratios,
     contraction_shares,
     in_axes,
     member_shapes,
     moderate_second_moments,
     plate_turning,
     principal_moments,
+    ratios_in_lattices,
     shifting_moduli,
     turning_inertias,
     turning_levers,
@@ -151,9 +153,15 @@ def _with_poisson_effect(
     contracts = np.array([not member.keeps_parts for member in cut.members])
     chosen, shares = shapes.only(within), (contracts * contraction_shares(shapes, shards))[within]
     normals, young, shear, frames = connections.normals[rows], young_pa[rows], shear_pa[rows], sections[rows]
-    moduli[rows] = in_axes(frames, shifting_moduli(chosen, shares, normals, young, shear))
+    ratios = contraction_ratios(shares, shear / young)
+    for member in np.flatnonzero(cut.in_lattices).tolist():
+        own = np.flatnonzero(within == member)
+        of_lattice = ratios_in_lattices(connections.pairs[rows[own]], cut.points_m[:, :2], (shear / young)[own])
+        for values, instead in zip(ratios, of_lattice, strict=True):
+            values[own] = instead
+    moduli[rows] = in_axes(frames, shifting_moduli(chosen, ratios, normals, young, shear))
     in_world = in_axes(np.swapaxes(frames, 1, 2), turning[rows])
-    turning[rows] = in_axes(frames, plate_turning(in_world, chosen, shares, normals, shear / young))
+    turning[rows] = in_axes(frames, plate_turning(in_world, chosen, ratios, normals))
     return moduli, turning
 
 

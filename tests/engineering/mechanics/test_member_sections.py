@@ -69,7 +69,7 @@ class PulledSlab:
         moments = second_moments(cut.shards, *faces)
         joints, rows = [Joint("FIXED", moduli=ElasticModuli(30e9, 0.2))], np.zeros(len(connections), int)
         of_shards = np.zeros(len(cut), int)
-        members = CutMembers([SLAB], of_shards, cut.shards, cut.points, of_shards > 0)
+        members = CutMembers([SLAB], of_shards, cut.shards, cut.points, of_shards > 0, np.zeros(1, bool))
         stiffness = connection_stiffness(connections, moments, joints, rows, members)
         masses = DENSITY_KG_M3 * cut.volumes
         inertias = masses[:, None] * [box_inertia(np.ptp(shard.vertices, axis=0)) for shard in cut.shards]

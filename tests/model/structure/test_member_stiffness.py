@@ -49,7 +49,9 @@ class Bar:
         connections = joined([between, foundations(cut.shards)])
         faces = connections.pairs[:, 0], connections.areas, connections.points, connections.normals
         of_shards = np.zeros(len(cut), int)
-        members = CutMembers([Member("bar", "pier", solid)], of_shards, cut.shards, cut.points, of_shards > 0)
+        members = CutMembers(
+            [Member("bar", "pier", solid)], of_shards, cut.shards, cut.points, of_shards > 0, np.zeros(1, bool)
+        )
         joints, rows = [Joint("FIXED", moduli=MODULI)], np.zeros(len(connections), int)
         stiffness = connection_stiffness(connections, second_moments(cut.shards, *faces), joints, rows, members)
         masses = DENSITY_KG_M3 * cut.volumes

@@ -63,7 +63,9 @@ def standing_slab(shard_count, seed, *, held=False):
         moments,
         [Joint("FIXED", moduli=MODULI)],
         np.zeros(len(connections), int),
-        CutMembers([Member("slab", "deck", solid)], of_shards, cut.shards, cut.points, of_shards > 0),
+        CutMembers(
+            [Member("slab", "deck", solid)], of_shards, cut.shards, cut.points, of_shards > 0, np.zeros(1, bool)
+        ),
     )
     return cut, connections, stiffness
 
@@ -107,7 +109,7 @@ def test_a_connection_without_an_area_is_refused():
             np.zeros((len(connections), 2, 2)),
             [Joint("FIXED", moduli=MODULI)],
             np.zeros(len(connections), int),
-            CutMembers([member], of_shards, cut.shards, cut.points, of_shards > 0),
+            CutMembers([member], of_shards, cut.shards, cut.points, of_shards > 0, np.zeros(1, bool)),
         )
 
 

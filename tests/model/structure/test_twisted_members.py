@@ -40,7 +40,9 @@ class FreeMember:
         connections = connect(cut.centres, cut.faces, *neighbours_by_face(cut.faces), limit_per_shard=1000)
         of_faces = connections.pairs[:, 0], connections.areas, connections.points, connections.normals
         of_shards, rows = np.zeros(count, int), np.zeros(len(connections), int)
-        members = CutMembers([Member("bar", "pier", solid)], of_shards, cut.shards, cut.points, of_shards > 0)
+        members = CutMembers(
+            [Member("bar", "pier", solid)], of_shards, cut.shards, cut.points, of_shards > 0, np.zeros(1, bool)
+        )
         joints = [Joint("FIXED", moduli=MODULI)]
         stiffness = connection_stiffness(connections, second_moments(cut.shards, *of_faces), joints, rows, members)
         self.matrix = np.zeros((6 * count, 6 * count))
