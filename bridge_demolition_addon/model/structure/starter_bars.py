@@ -22,6 +22,7 @@ from ..materials import BarLayer
 from ..reinforcement.concrete_members import is_concrete, names_of_bridge
 from ..scenario import Bridge, Scenario
 from .connection_source import ConnectionRows, CutBridge
+from .member_layers import layers_of_members
 
 _LEAST_RATIO = 0.002
 """As of the bars along columns and the upright ones of walls: EN 1992-1-1:2004, 9.5.2 (2) and 9.6.2 (1)."""
@@ -49,25 +50,29 @@ def starter_bars(cut: CutBridge, layers: Sequence[BarLayer], rows: ConnectionRow
     """Return the bars between members of one piece; None where there are none.
 
     Either member's bars that run across the face go on into the other: as many as those of the one with more, and the
-    least that EN 1992-1-1 asks for where either has bars. Bearings and soil have none, nor have connections that leave
-    something free.
+    least that EN 1992-1-1 asks for where either has bars. Layers yield as across a crack of their own member, whose
+    section they turn about its pressed edge with its moment of resistance. Bearings and soil have none, nor have
+    connections that leave something free.
     """
     scenario, members, connections, joints = cut.scenario, cut.members, rows.connections, cut.scenario.joints
     yield_n, openings = np.zeros((2, len(connections)))
     factor, opening_m = scenario.connections.strength_factor, scenario.connections.ductile_elongation_m
-    own = [_bars_of(layers, member) for member in members]
+    own = _BarsOfMembers(layers, members)
     of_pair, sprung = cut.members_of(connections.pairs), rows.sprung
     for piece in _pieces(scenario, members):
         meets = (of_pair[:, 0] != of_pair[:, 1]) & piece[of_pair].all(axis=1) & (connections.areas > 0.0)
         meets[sprung] = False
         for row in np.flatnonzero(meets).tolist():
             pair, joint = of_pair[row].tolist(), joints[rows.joints[row]]
-            if joint.free or joint.strength is None or not any(own[index] for index in pair if index >= 0):
+            if joint.free or joint.strength is None:
+                continue
+            compression_pa = float(joint.strength.compression_pa) / factor
+            bars_of = {index: own.by_area(index, compression_pa) for index in pair if index >= 0}
+            if not any(bars_of.values()):
                 continue
             point, normal = connections.points[row], connections.normals[row]
-            crossing = [tuple(_crossing(own[index], members[index], point, normal)) for index in pair if index >= 0]
-            kinds = frozenset(members[index].kind for index in pair if index >= 0)
-            compression_pa = float(joint.strength.compression_pa) / factor
+            crossing = [tuple(_crossing(bars, members[index], point, normal)) for index, bars in bars_of.items()]
+            kinds = frozenset(members[index].kind for index in bars_of)
             bars = max(crossing, key=_pull_pa)
             if kinds != ON_GIRDERS or not _pull_pa(bars):  # a girder's own links are as they are given
                 bars = max((bars, (_least(kinds, compression_pa, scenario.steel),)), key=_pull_pa)
@@ -113,24 +118,38 @@ def _kinds_of_one_piece(bridge: Bridge) -> Iterator[tuple[frozenset[str] | None,
     yield frozenset(("pier cap", "pier", "abutment")), True
 
 
-def _bars_of(layers: Sequence[BarLayer], member: Member) -> list[_Crossing]:
-    """Return the bars of a member by the area across them, of all its layers."""
-    found = []
-    for layer in layers:
-        if not layer.is_in(member.name, member.kind):
-            continue
-        axis = AXES.index(layer.along)
-        if layer.is_spread:
-            ratio = layer.ratio
-        else:
+class _BarsOfMembers:
+    """The bars of members by the area across them, those of layers as they pull across a crack of their section."""
+
+    def __init__(self, layers: Sequence[BarLayer], members: Sequence[Member]):
+        self._layers, self._members = layers, members
+        self._groups = tuple(layers_of_members(layers, members))
+        self._found: dict[tuple[int, float], list[_Crossing]] = {}
+
+    def by_area(self, index: int, compressive_pa: float) -> list[_Crossing]:
+        """Return the bars of a member of such concrete."""
+        key = index, compressive_pa
+        if key not in self._found:
+            self._found[key] = [*self._spread(self._members[index]), *self._in_layers(index, compressive_pa)]
+        return self._found[key]
+
+    def _spread(self, member: Member) -> Iterator[_Crossing]:
+        for layer in self._layers:
+            if layer.is_spread and layer.is_in(member.name, member.kind):
+                along = layer.own_axes, AXES.index(layer.along)
+                yield _Crossing(layer.ratio, layer.yield_pa, layer.diameter_m, along, layer.ends_m)
+
+    def _in_layers(self, index: int, compressive_pa: float) -> Iterator[_Crossing]:
+        member = self._members[index]
+        for group in (group for group in self._groups if group.member == index):
+            axis, between = group.axes[0], group.between_m
             corners = member.without_skew(member.solid.vertices) if member.line else member.solid.vertices
-            length = float(np.ptp(corners[:, axis]))
-            if layer.own_axes:
-                low, high = own_axes(member).ends_m(axis)
-                length = high - low
-            ratio = layer.area_m2 * length / member.volume_m3
-        found.append(_Crossing(ratio, layer.yield_pa, layer.diameter_m, (layer.own_axes, axis), layer.ends_m))
-    return found
+            ends_m = own_axes(member).ends_m(axis) if group.own else (corners[:, axis].min(), corners[:, axis].max())
+            forces_n = group.section(compressive_pa, 1.0).across_cracks_n()
+            for layer, force_n in zip(group.layers, forces_n, strict=True):
+                ratio = force_n / layer.yield_pa * float(ends_m[1] - ends_m[0]) / member.volume_m3
+                ends = max(layer.ends_m[0], between[0]), min(layer.ends_m[1], between[1])
+                yield _Crossing(ratio, layer.yield_pa, layer.diameter_m, (layer.own_axes, axis), ends)
 
 
 def _crossing(
