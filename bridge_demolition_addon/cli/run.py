@@ -14,7 +14,7 @@ from ..errors import Faults, OutputError
 from ..model.reinforcement.concrete_members import plain_concrete_text
 from ..model.results.arrays import SHORT
 from ..model.results.collapse import ConnectionCounts
-from ..model.results.extremes import bars_text, largest_use_text
+from ..model.results.extremes import bars_text
 from ..model.results.moving import creep_text
 from ..model.results.summary import first_hit_s
 from ..model.run_folder.files import RESULT_FILES, remove_report
@@ -219,9 +219,6 @@ def _result_facts(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
         yield "connections", ConnectionCounts.of_summary(summary).text
     if bars := bars_text(summary):
         yield "reinforcement", bars
-    if use := largest_use_text(summary):
-        yield "largest use of bars", use
-        yield "", "no margin: under an impact it depends on the length of sub-steps"
     if force:
         largest = Quantity(kilonewtons(force["force_N"]), "kN")
         position = f"the resultant on {force['body']} at {force['time_s']:.3f} s"

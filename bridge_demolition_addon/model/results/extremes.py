@@ -11,7 +11,7 @@ import numpy as np
 
 from ...engineering.elasticity.crack_state import ALL_RUPTURED, AT_YIELD, FrameCracks
 from ...engineering.mechanics.bearing_loads import BearingLoads
-from ...texts import Text, joined
+from ...texts import Text
 from .frames import Inventory
 
 OPEN_SHARE = 0.999
@@ -262,19 +262,3 @@ def bars_text(summary: Mapping[str, Any]) -> str:
     counts = f"{bars['cracked']} of {bars['with_bars']} connections with bars cracked"
     in_part = f", {bars['ruptured_in_part']} in part" if bars["ruptured_in_part"] else ""
     return f"{counts}, {bars['yielded']} yielded, {bars['ruptured']} ruptured{in_part}"
-
-
-def largest_use_text(summary: Mapping[str, Any]) -> str:
-    """Return in a line where bars used most of their rupture strain; empty where they used nothing."""
-    bars = summary.get("reinforcement")
-    largest = bars and bars["largest_use"]
-    if not largest:
-        return ""
-    members = dict.fromkeys(filter(None, (largest["first_member"], largest["second_member"])))
-    return Text(
-        "{} of the rupture strain at {} s, {}, {}",
-        f"{largest['share']:.0%}",
-        f"{largest['time_s']:.3f}",
-        joined("{} and {}", members),
-        largest["connection"],
-    )

@@ -16,7 +16,7 @@ from ...engineering.units import kilonewtons
 from ...errors import DemolitionError, OutputError, UnreadableError
 from ...model.results.arrays import Results
 from ...model.results.collapse import ConnectionCounts
-from ...model.results.extremes import bars_text, largest_use_text
+from ...model.results.extremes import bars_text
 from ...model.run_folder.files import SUMMARY_FILE
 from ...model.run_folder.summary import RunSummary, read_summary
 from ...model.sequence.ending import doubts_of_run
@@ -196,7 +196,6 @@ def lines_of(summary: Mapping[str, Any]) -> list[str]:
         translated("Total mass: {}").format(mass_text(summary["mass_kg"]["shard"])),
         counts_line(ConnectionCounts.of_summary(summary)),
         *([translated("Bars: {}").format(bars)] if (bars := bars_text(summary)) else []),
-        *([translated("Most, by these sub-steps: {}").format(use)] if (use := largest_use_text(summary)) else []),
         translated("{} frames, {} s").format(summary["frames"], f"{summary['simulated_s']:.2f}"),
         *([translated("Creeping at the end: {} shards").format(creeping["shards"])] if creeping else []),
     ]
