@@ -167,3 +167,13 @@ def test_cuts_that_cannot_be_compared_are_refused():
     scenario = scenario_from_text(deck_text(bearings=()))
     with pytest.raises(ScenarioError, match=r"no \[\[bearings\]\]"):
         ranges_of(scenario, 2)
+
+
+@pytest.mark.parametrize(("skew", "said"), [(0.0, "5% of each"), (25.0, "8% of each"), (40.0, "not measured")])
+def test_cuts_that_are_alike_are_said_to_leave_the_same_out(skew, said):
+    """The figures are what `test_girders_on_bearings` and `test_slabs_on_columns` hold single bearings within."""
+    scenario = girders(skew=skew)
+    model = build_model(scenario)
+    rest = model_at_rest(model, scenario.joints)
+    facts = dict(bearing_facts(scenario, model, rest, model.bearings.forces(loads_of(model, rest))))
+    assert facts["known to within"].startswith(said)
