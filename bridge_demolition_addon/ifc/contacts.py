@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import cached_property
 
 import numpy as np
 from manifold3d import Manifold
@@ -19,14 +18,21 @@ NEAR_M = 0.5
 
 
 class NearbyMembers:
-    """Solids of members, and what is near each of them."""
+    """Solids of members, any of which may be replaced, and what is near each of them."""
 
     def __init__(self, solids: Sequence[TriangleMesh]) -> None:
-        self._solids = tuple(solids)
+        self._solids = list(solids)
+        self._bounds = np.array([solid.bounds for solid in solids]).reshape(-1, 2, 3)
+        self._manifolds: dict[int, Manifold] = {}
 
     def solid(self, index: int) -> TriangleMesh:
         """Return the solid of a member."""
         return self._solids[index]
+
+    def replace(self, index: int, solid: TriangleMesh) -> None:
+        """Take another solid as that of a member."""
+        self._solids[index], self._bounds[index] = solid, solid.bounds
+        self._manifolds.pop(index, None)
 
     def near(self, index: int) -> list[tuple[float, int]]:
         """Return gaps in m to all members within `NEAR_M` of a member, and which they are, the nearest first."""
@@ -35,26 +41,22 @@ class NearbyMembers:
     def near_to(self, solid: TriangleMesh) -> list[tuple[float, int]]:
         """Return gaps in m to all members within `NEAR_M` of a solid, and which they are, the nearest first."""
         own, (lowest, highest) = to_manifold(solid), solid.bounds
-        may = ((self._lowest <= highest + NEAR_M) & (self._highest >= lowest - NEAR_M)).all(axis=1)
-        gaps = [(own.min_gap(self._manifolds[other], NEAR_M), other) for other in np.flatnonzero(may).tolist()]
+        may = ((self._bounds[:, 0] <= highest + NEAR_M) & (self._bounds[:, 1] >= lowest - NEAR_M)).all(axis=1)
+        gaps = [(own.min_gap(self._manifold(other), NEAR_M), other) for other in np.flatnonzero(may).tolist()]
         return sorted((gap, other) for gap, other in gaps if gap < NEAR_M)
 
-    def reached(self, solid: TriangleMesh, shift_m: float) -> dict[int, float]:
-        """Return which members a solid reaches into when it is moved up by so much, and the volume of each, m³."""
+    def reached(self, solid: TriangleMesh, shift_m: float, but: int | None = None) -> dict[int, float]:
+        """Return which members a solid reaches into when it is moved up by so much, and the volume of each, m³.
+
+        One of them may be left out, such as that of the solid itself.
+        """
         moved = to_manifold(solid).translate((0.0, 0.0, shift_m))
         lowest, highest = solid.bounds + np.array((0.0, 0.0, shift_m))
-        may = np.flatnonzero(((self._lowest < highest) & (self._highest > lowest)).all(axis=1))
-        shared = {index: (moved ^ self._manifolds[index]).volume() for index in may.tolist()}
+        may = np.flatnonzero(((self._bounds[:, 0] < highest) & (self._bounds[:, 1] > lowest)).all(axis=1))
+        shared = {index: (moved ^ self._manifold(index)).volume() for index in may.tolist() if index != but}
         return {index: volume for index, volume in shared.items() if volume > 0.0}
 
-    @cached_property
-    def _manifolds(self) -> list[Manifold]:
-        return [to_manifold(solid) for solid in self._solids]
-
-    @cached_property
-    def _lowest(self) -> np.ndarray:
-        return np.array([solid.bounds[0] for solid in self._solids]).reshape(-1, 3)
-
-    @cached_property
-    def _highest(self) -> np.ndarray:
-        return np.array([solid.bounds[1] for solid in self._solids]).reshape(-1, 3)
+    def _manifold(self, index: int) -> Manifold:
+        if index not in self._manifolds:
+            self._manifolds[index] = to_manifold(self._solids[index])
+        return self._manifolds[index]

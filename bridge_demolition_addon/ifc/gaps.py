@@ -79,8 +79,9 @@ def closed_gaps(members: Sequence[Member], gap_m: float, bars: Collection[str] =
     upwards to its deck. Bars of steel, by their names, do that alone.
     """
     done, notes = list(members), []
+    contacts = NearbyMembers([member.solid for member in members])
     for upper in range(len(done)):
-        for lower in _nearly_under(done, upper, gap_m):
+        for lower in _nearly_under(contacts, upper, gap_m):
             if done[upper].kind in _ON_SOIL:
                 continue
             if done[lower].kind in _STANDING and done[upper].kind not in _STANDING:
@@ -98,6 +99,7 @@ def closed_gaps(members: Sequence[Member], gap_m: float, bars: Collection[str] =
                 reach_m += min(STEEPEST * float(np.ptp(solid.vertices[:, :2], axis=0).max()), 2.0 * gap_m)
             made = largest_body(cut_by(lengthened(solid, way * reach_m), [done[other].solid]))
             done[longer] = replace(done[longer], solid=made)
+            contacts.replace(longer, made)
             if done[longer].name in bars:
                 notes.append(
                     f"{done[other].name} has a haunch, up to {1e3 * reach_m:.0f} mm high, over {done[longer].name}"
@@ -119,16 +121,15 @@ def close_small_gaps(
     `staying` are not moved.
     """
     done, notes = list(members), []
+    contacts = NearbyMembers([member.solid for member in members])
     for index, member in enumerate(members):
         if member.kind in _STAYING or member.name in staying:
             continue
-        others = [other.solid for row, other in enumerate(done) if row != index]
-        contacts = NearbyMembers(others)
-        already = contacts.reached(member.solid, 0.0)
+        already = contacts.reached(member.solid, 0.0, but=index)
         if math.fsum(already.values()) > _LITTLE * member.solid.volume:
             continue
-        near = [_faces(contacts, member.solid, way, already, TOUCHING_M) for way in WAYS]
-        far = [_faces(contacts, member.solid, way, already, gap_m) for way in WAYS]
+        near = [_faces(contacts, index, way, already, TOUCHING_M) for way in WAYS]
+        far = [_faces(contacts, index, way, already, gap_m) for way in WAYS]
         best = int(np.argmax(far))
         if far[best] < _LEAST_FACE_M2 or math.fsum(near) >= _HARDLY * far[best]:
             continue
@@ -136,29 +137,30 @@ def close_small_gaps(
             (
                 part * gap_m
                 for part in _PARTS
-                if _faces(contacts, member.solid, WAYS[best], already, part * gap_m) >= _MOST * far[best]
+                if _faces(contacts, index, WAYS[best], already, part * gap_m) >= _MOST * far[best]
             ),
             gap_m,
         )
         solid = TriangleMesh(member.solid.vertices + WAYS[best] * shift_m, member.solid.triangles)
         done[index] = replace(member, solid=solid)
+        contacts.replace(index, solid)
         notes.append(f"{member.name} is moved by {1e3 * shift_m:.1f} mm against what it hardly touches")
     return done, notes
 
 
 def _faces(
-    contacts: NearbyMembers, solid: TriangleMesh, way: np.ndarray, already: Mapping[int, float], shift_m: float
+    contacts: NearbyMembers, index: int, way: np.ndarray, already: Mapping[int, float], shift_m: float
 ) -> float:
-    """Return the area, m², with which a solid meets others when it is moved by so much."""
+    """Return the area, m², with which a member meets others when it is moved by so much."""
+    solid = contacts.solid(index)
     moved = TriangleMesh(solid.vertices + way * shift_m, solid.triangles)
-    reached = contacts.reached(moved, 0.0)
+    reached = contacts.reached(moved, 0.0, but=index)
     return math.fsum(max(volume - already.get(other, 0.0), 0.0) for other, volume in reached.items()) / shift_m
 
 
-def _nearly_under(members: Sequence[Member], upper: int, gap_m: float) -> list[int]:
+def _nearly_under(contacts: NearbyMembers, upper: int, gap_m: float) -> list[int]:
     """Return members that lie under one with a gap, or that touch it with less than half of the face there."""
-    contacts = NearbyMembers([member.solid for member in members])
-    solid = members[upper].solid
+    solid = contacts.solid(upper)
     shared, near, far = (contacts.reached(solid, -shift_m) for shift_m in (0.0, TOUCHING_M, gap_m))
     found = []
     for other in sorted(far.keys() - {upper}):

@@ -13,6 +13,15 @@ from ..geometry.vectors import cross_2d, dot, length, transformed, transformed_b
 OPPOSITE_COSINE = -1 + 1e-6
 """Two faces look at each other when the cosine between their normals is below this: they lean by less than 0.08°."""
 
+_LEANING = 1.5e-3
+"""Length that the sum of two unit normals has at most as their faces look at each other, √(2 (1 + cosine)), rounded."""
+
+_ASKEW = np.array([0.36, 0.48, 0.8])
+"""Direction along which the normals of hardly two directions of a bridge have equal parts; of length 1."""
+
+_APART = 4.0
+"""More than the parts of two normals along a direction differ by: keeps the rows of pairs apart."""
+
 SMALLEST_AREA = 1e-12
 """Part of the larger of two triangles' areas below which what they have in common is rounding."""
 
@@ -155,9 +164,7 @@ def _facing_triangles(
     lower, upper = lower - tolerance, upper + tolerance
     row, first = _triangles_in_box(surface, pairs[:, 0], lower[pairs[:, 1]], upper[pairs[:, 1]])
     own_row, second = _triangles_in_box(surface, pairs[:, 1], lower[pairs[:, 0]], upper[pairs[:, 0]])
-    starts = np.searchsorted(own_row, np.arange(len(pairs)))
-    counts = np.bincount(own_row, minlength=len(pairs))
-    of_first, position = ranges(starts[row], counts[row])
+    of_first, position = _opposite(surface.normals, row, first, own_row, second)
     row, first, second = row[of_first], first[of_first], second[position]
     for axis in range(3):
         near = (surface.lower[first, axis] <= surface.upper[second, axis] + tolerance) & (
@@ -166,6 +173,24 @@ def _facing_triangles(
         row, first, second = row[near], first[near], second[near]
     facing = dot(surface.normals[first], surface.normals[second]) < OPPOSITE_COSINE
     return row[facing], first[facing], second[facing]
+
+
+def _opposite(
+    normals: FloatArray, row: IntArray, first: IntArray, own_row: IntArray, second: IntArray
+) -> tuple[IntArray, IntArray]:
+    """Positions in two lists of triangles, by the rows of their pairs, wherever normals may be opposite; in order.
+
+    Along any direction opposite normals have opposite parts: what is sorted by these need not be compared with all.
+    """
+    of_first, of_second = dot(normals[first], _ASKEW), dot(normals[second], _ASKEW)
+    keys = _APART * own_row + of_second
+    order = np.argsort(keys, kind="stable")
+    sought = _APART * row - of_first
+    begins = np.searchsorted(keys[order], sought - _LEANING)
+    found, place = ranges(begins, np.searchsorted(keys[order], sought + _LEANING) - begins)
+    position = order[place]
+    in_order = np.lexsort((position, found))
+    return found[in_order], position[in_order]
 
 
 def _triangles_in_box(

@@ -89,7 +89,7 @@ class _Part:
         for normal, offset in _planes_at_inward_edges(from_manifold(self.body)):
             halves = self.body.split_by_plane(normal.tolist(), float(offset))
             pieces = [_Part.of(shells) for half in halves for shells in bodies(half, _RUBBISH * self.volume_m3)]
-            pieces = _without_slivers(pieces, _LEAST_PIECE * whole_m3)
+            pieces = _without_slivers(pieces, _LEAST_PIECE * whole_m3, left_m3)
             excess_m3 = math.fsum(piece.excess_m3 for piece in pieces)
             if len(pieces) > 1 and excess_m3 < left_m3:
                 best, left_m3 = pieces, excess_m3
@@ -102,10 +102,17 @@ def _without_films(body: Manifold, smallest_m3: float) -> TriangleMesh:
     return from_manifold(*itertools.chain(*bodies(to_manifold(mesh), smallest_m3)))
 
 
-def _without_slivers(pieces: list[_Part], least_m3: float) -> list[_Part]:
-    """Return pieces of which each smaller one is sewn to that beside it with which it is most convex, or none."""
+def _without_slivers(pieces: list[_Part], least_m3: float, most_excess_m3: float) -> list[_Part]:
+    """Return pieces of which each smaller one is sewn to that beside it with which it is most convex, or none.
+
+    None either where they would have more in excess than `most_excess_m3`: a sliver takes no more away than it fills.
+    """
     kept = [piece for piece in pieces if piece.volume_m3 >= least_m3]
-    for sliver in (piece for piece in pieces if piece.volume_m3 < least_m3):
+    slivers = [piece for piece in pieces if piece.volume_m3 < least_m3]
+    filled_m3 = math.fsum(sliver.volume_m3 for sliver in slivers)
+    if slivers and math.fsum(piece.excess_m3 for piece in kept) - filled_m3 > most_excess_m3 + least_m3:
+        return []
+    for sliver in slivers:
         united = [_Part(piece.body + sliver.body) for piece in kept]
         beside = [index for index, whole in enumerate(united) if _have_joined(kept[index], sliver, whole)]
         if not beside:
@@ -142,8 +149,10 @@ def _planes_at_inward_edges(mesh: TriangleMesh) -> Iterator[tuple[FloatArray, fl
         alike[row] = True
         heights = dot(ends[alike], normal)
         left[alike] = 0.0
-        yield normal, float(heights.min())
-        yield normal, float(heights.max())
+        lowest, highest = float(heights.min()), float(heights.max())
+        yield normal, lowest
+        if lowest != highest:
+            yield normal, highest
 
 
 def _faces_at_inward_edges(mesh: TriangleMesh) -> tuple[FloatArray, FloatArray, FloatArray]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from itertools import chain, pairwise
 from pathlib import Path
 
@@ -56,6 +57,9 @@ is not there."""
 
 _THROUGH_PART = 20.0
 """Length of shards over their width with which they go through a part of a deck: only inclined by a twentieth."""
+
+_KEPT_SOLIDS = 512
+"""Solids whose convex parts are kept: those of an imported bridge, of 20 kB each."""
 
 _MOST_ATTEMPTS = 8
 
@@ -228,8 +232,19 @@ def _in_convex_parts(member: Member, shards: int) -> Member:
 
 def _convex_parts(solid: TriangleMesh, most: int, least_m3: float) -> tuple[TriangleMesh, ...]:
     """Return a solid in convex parts; whole where one of them could not be cut."""
+    vertices, triangles = np.ascontiguousarray(solid.vertices), np.ascontiguousarray(solid.triangles)
+    parts = _parts_by_content(vertices.tobytes(), triangles.tobytes(), most, least_m3)
+    return parts or (solid,)
+
+
+@lru_cache(maxsize=_KEPT_SOLIDS)
+def _parts_by_content(
+    vertices: bytes, triangles: bytes, most: int, least_m3: float
+) -> tuple[TriangleMesh, ...]:
+    """Return a solid in convex parts, kept: another cut of a bridge has the same; none where one could not be cut."""
+    solid = TriangleMesh(np.frombuffer(vertices).reshape(-1, 3), np.frombuffer(triangles, np.int64).reshape(-1, 3))
     parts = convex_parts(solid, most, least_m3)
-    return parts if all(_can_be_cut(part) for part in parts) else (solid,)
+    return parts if len(parts) > 1 and all(_can_be_cut(part) for part in parts) else ()
 
 
 def _can_be_cut(part: TriangleMesh) -> bool:
