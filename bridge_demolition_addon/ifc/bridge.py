@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import chain, count, groupby
 from pathlib import Path
@@ -131,7 +131,7 @@ def _bridge(path: Path, table: MaterialTable, settings: ImportSettings, kept: Ke
     if settings.strict:
         result.add_bearings(bearings, solids, placement, gap_m, table)
     else:
-        frame, on_bars = _put_together(result, settings, steel, bearings, solids, placement, gap_m, table)
+        frame, on_bars = _put_together(result, settings, steel, bearings, solids, placement, gap_m, table, kept.says)
     bars: list[BarLayer] = []
     if not settings.strict:
         bars, said = bar_layers(source, elements, dict(result.members()), placement)
@@ -165,6 +165,7 @@ def _put_together(
     placement: Placement,
     gap_m: float,
     table: MaterialTable,
+    says: Callable[[str], None],
 ) -> tuple[SteelFrame | None, tuple[str, ...]]:
     """Put members together, and return the frame of those that are bars of steel, if there are any, and notes on these.
 
@@ -176,11 +177,13 @@ def _put_together(
     leave_out_light_bracing(result, settings.shards)
     result.fit_together()
     plates = leave_out_plates(result, as_they_stand(result, taken, before))
+    says("closing gaps between members")
     result.close_gaps(gap_m)
     result.add_bearings(bearings, solids, placement, gap_m, table)
     leave_out_clamping_slabs(result)
     hung = as_they_stand(result, taken, before)
     supports = supported(result, hung, gap_m)
+    says("looking for what nothing holds")
     result.hold(gap_m, table)
     standing = as_they_stand(result, taken, before)
     stays = {
@@ -195,6 +198,7 @@ def _put_together(
         frame, said = steel_frame(result, standing, supports, plates)
         lines = (*steel_notes(result, said), *lines)
         cut_out(result, frame)
+    says("cutting off where members lie in each other")
     result.drop_consumed()
     result.make_writable()
     return frame, lines

@@ -148,9 +148,7 @@ def close_small_gaps(
     return done, notes
 
 
-def _faces(
-    contacts: NearbyMembers, index: int, way: np.ndarray, already: Mapping[int, float], shift_m: float
-) -> float:
+def _faces(contacts: NearbyMembers, index: int, way: np.ndarray, already: Mapping[int, float], shift_m: float) -> float:
     """Return the area, m², with which a member meets others when it is moved by so much."""
     solid = contacts.solid(index)
     moved = TriangleMesh(solid.vertices + way * shift_m, solid.triangles)

@@ -56,7 +56,7 @@ def _imported(request: Mapping[str, Any], say: Say) -> dict[str, Any]:
             return
         say({"element": element.entity.id(), "title": element.title, "part": done, "of": total})
 
-    kept.begins = begins
+    kept.begins, kept.says = begins, lambda text: say({"stage": text})
     bridge = read_bridge(Path(request["path"]), ImportSettings.from_json(request["settings"]), kept)
     say({"stage": "writing the scenario"})
     lines = write_bridge(bridge, Path(request["folder"]))

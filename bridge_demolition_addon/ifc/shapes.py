@@ -39,11 +39,14 @@ class KeptShapes:
     begins
         Called before each element, with how many are done, how many there are, and the element; with None after the
         last one.
+    says
+        Called with what is done once all shapes are known.
     """
 
     folder: Path | None = None
     failed: dict[int, str] = field(default_factory=dict)
     begins: Callable[[int, int, Element | None], None] = lambda _done, _total, _element: None
+    says: Callable[[str], None] = lambda _text: None
 
     def load(self, number: int) -> TriangleMesh | None:
         """Return the shape that is kept of an element, by its number in the file."""

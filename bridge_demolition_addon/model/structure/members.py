@@ -238,9 +238,7 @@ def _convex_parts(solid: TriangleMesh, most: int, least_m3: float) -> tuple[Tria
 
 
 @lru_cache(maxsize=_KEPT_SOLIDS)
-def _parts_by_content(
-    vertices: bytes, triangles: bytes, most: int, least_m3: float
-) -> tuple[TriangleMesh, ...]:
+def _parts_by_content(vertices: bytes, triangles: bytes, most: int, least_m3: float) -> tuple[TriangleMesh, ...]:
     """Return a solid in convex parts, kept: another cut of a bridge has the same; none where one could not be cut."""
     solid = TriangleMesh(np.frombuffer(vertices).reshape(-1, 3), np.frombuffer(triangles, np.int64).reshape(-1, 3))
     parts = convex_parts(solid, most, least_m3)
