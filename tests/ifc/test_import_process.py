@@ -71,8 +71,14 @@ def test_no_element_pays_for_what_is_done_with_all_of_them(path, tmp_path):
     done = subprocess.run(command, input=json.dumps(request) + "\n", capture_output=True, text=True, check=True)
     said = [json.loads(line.removeprefix(MARK)) for line in done.stdout.splitlines() if line.startswith(MARK)]
     last = max(row for row, message in enumerate(said) if "element" in message)
-    assert [set(message) for message in said[last + 1 :]] == [{"stage"}, {"stage"}, {"done"}]
-    assert [message["stage"] for message in said[last + 1 : -1]] == [None, "writing the scenario"]
+    assert [set(message) for message in said[last + 1 :]] == [{"stage"}] * 5 + [{"done"}]
+    assert [message["stage"] for message in said[last + 1 : -1]] == [
+        None,
+        "closing gaps between members",
+        "looking for what nothing holds",
+        "cutting off where members lie in each other",
+        "writing the scenario",
+    ]
 
 
 @pytest.mark.long
