@@ -43,7 +43,9 @@ def _finish(shard: TriangleMesh, member: Member) -> np.ndarray:
     finish = np.where(broken, Finish.BROKEN, Finish.CAST)
     if member.kind in ROAD_KINDS:
         _, normals = triangle_areas_and_normals(shard.corners)
-        bottom, top = member.solid.bounds[:, 2]
-        is_high = shard.corners[:, :, 2].min(axis=1) > top - _BELOW_TOP * (top - bottom)
+        # On a road that rises, heights are those that it would have on a level one.
+        heights = member.without_skew(member.solid.vertices)[:, 2]
+        bottom, top = heights.min(), heights.max()
+        is_high = member.without_skew(shard.corners)[:, :, 2].min(axis=1) > top - _BELOW_TOP * (top - bottom)
         finish[~broken & is_high & (normals[:, 2] > _LEVEL)] = Finish.ROAD
     return finish

@@ -8,6 +8,7 @@ import pytest
 from support.meshes import is_closed
 
 from bridge_demolition_addon.engineering.geometry.level_contacts import level_contacts
+from bridge_demolition_addon.engineering.geometry.mesh import triangle_areas_and_normals
 from bridge_demolition_addon.engineering.geometry.solids import union
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.errors import GeometryError, ScenarioError
@@ -26,6 +27,7 @@ from bridge_demolition_addon.model.scenario import (
 from bridge_demolition_addon.model.scenario.file import scenario_from_text
 from bridge_demolition_addon.model.sequence.checked_model import checked_model
 from bridge_demolition_addon.model.stages.standing import StandingBridge
+from bridge_demolition_addon.model.structure.finishes import Finish, finishes
 
 pytestmark = pytest.mark.slow
 
@@ -450,3 +452,15 @@ def test_shards_on_a_curved_ramp_lie_on_each_other_wholly():
     kinds = np.array([model.members[member].kind for member in model.member_of_shard] + ["ground"])
     meet = (np.sort(kinds[model.connections.pairs], axis=1) == ("deck", "girder")).all(axis=1)
     assert model.connections.areas[meet].sum() == pytest.approx(2 * 0.8 * 50, rel=2e-3)
+
+
+def test_the_whole_top_of_a_deck_that_rises_is_a_road():
+    text = STANDING.format(skew_deg=0, girders="", thickness_m=1).replace("end_grade_percent = -3\n", "")
+    model = checked_model(scenario_from_text(text))
+    roads = [
+        triangle_areas_and_normals(shard.corners)[0][finish == Finish.ROAD].sum()
+        for shard, finish in zip(
+            model.shards, finishes(model.shards, model.members, model.member_of_shard), strict=True
+        )
+    ]
+    assert sum(roads) == pytest.approx(6 * 50, rel=2e-3)  # in plan; 5 % make it longer by 0.13 %
