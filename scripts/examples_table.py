@@ -8,6 +8,7 @@ docs/data/seeds, which `scripts/seeds` makes. With names of examples only their 
 
 import csv
 import math
+import posixpath
 import statistics
 import sys
 from collections.abc import Iterable, Iterator, Mapping
@@ -28,6 +29,7 @@ from bridge_demolition_addon.model.stages.stability import UNKNOWN, stability_of
 from bridge_demolition_addon.model.stages.standing import StandingBridge
 from bridge_demolition_addon.model.study.runs_table import RESTED, read_runs
 
+PAGE_OF_2019 = REPORT_2019 / "README.md"
 PAGE, STATICS, RANGES = (
     ROOT / "docs" / "examples.md",
     ROOT / "docs" / "data" / "examples.csv",
@@ -51,10 +53,9 @@ HEADER = """\
 <!-- Made by `scripts/examples_table.py`, which `scripts/remake` calls. -->
 
 Does the bridge of an example stand, what does it carry, and what do runs come to that differ in nothing but their seed?
-How it stands is worked out by statics, as `bda check --stand` and `bda stages` do, for the example's own seed. Runs are
-those of `scripts/seeds`; each row of [their tables](data/seeds) is one. Runs are of an earlier version, which
-[remade.json](data/remade.json) names: bridges whose connections are elastic begin otherwise today, as members that are
-cast together share bars now, and `scripts/remake --list` says what waits to be made again.
+By statics, for the example's own seed, and by `scripts/seeds` ([tables](data/seeds)). Runs are of an earlier version,
+which [remade.json](data/remade.json) names; `scripts/remake --list` says what waits to be made again. Those of 2019
+stand [beside their files](../examples/report_2019/README.md#the-demolitions-of-2019-as-they-run).
 
 - **Stands**: largest utilisation under its own weight, and the collapse load factor: how many times as heavy everything
   may become.
@@ -68,17 +69,15 @@ cast together share bars now, and `scripts/remake --list` says what waits to be 
 - **Made**: energy that the solver made, as a share of what was dissipated: median, least to largest.
 """
 
-NOW, OF_2019 = (
-    "\n## Bridges as they are\n",
-    """
-## The demolitions of 2019
-
-With the settings or the bare charges of the [2019 report](../examples/report_2019/README.md). Methods without faces of
-shards have no stresses, so whether a bridge stands is *unknown*; it stands in a run as long as it sleeps, as in 2019.
-Runs are cut short where a time is given. They are of a version that counted as made by the solver what contacts only
-[give back](report.md#what-the-numbers-mean).
-""",
-)
+OF_2019 = """
+Largest utilisation and load factor by statics, and what runs come to that differ in nothing but their seed, as in [all
+examples](../../docs/examples.md). Methods without faces of shards have no stresses, so whether a bridge stands is
+unknown; it stands in a run as long as it sleeps, as in 2019. Runs are cut short where a time is given. They are of a
+version that counted as made by the solver what contacts only [give
+back](../../docs/report.md#what-the-numbers-mean).
+"""
+BEGIN, END = "<!-- examples -->\n", "<!-- end -->"
+"""Between these stands the table of the demolitions of 2019, on the page beside them."""
 
 
 def main(names: list[str]) -> int:
@@ -95,6 +94,7 @@ def main(names: list[str]) -> int:
             writer.writeheader()
             writer.writerows(kept[example] for example in SEEDED if example in kept)
     PAGE.write_text(page(), encoding="utf-8", newline="\n")
+    PAGE_OF_2019.write_text(page_of_2019(), encoding="utf-8", newline="\n")
     return 0
 
 
@@ -131,19 +131,26 @@ def number(value: float | None) -> str:
 
 
 def page() -> str:
-    """Return the page."""
+    """Return the page, but for the demolitions of 2019."""
+    names = [name for name, path in SEEDED.items() if path.parent != REPORT_2019]
+    return "\n".join([HEADER, *table(names, PAGE)]) + "\n"
+
+
+def page_of_2019() -> str:
+    """Return the page beside the demolitions of 2019, with their table as it is now."""
+    text = PAGE_OF_2019.read_text(encoding="utf-8")
+    names = [name for name, path in SEEDED.items() if path.parent == REPORT_2019]
+    own = "\n".join([OF_2019, *table(names, PAGE_OF_2019)]) + "\n"
+    return text.partition(BEGIN)[0] + BEGIN + own + END + text.partition(END)[2]
+
+
+def table(names: Iterable[str], page: Path) -> Iterator[str]:
+    """Yield the lines of a table of examples, for a page."""
     kept = {row["example"]: row for row in rows(STATICS)}
-    of_2019 = [name for name, path in SEEDED.items() if path.parent == REPORT_2019]
-    now = [name for name in SEEDED if name not in of_2019]
-    return "\n".join([HEADER, NOW, *table(now, kept), OF_2019, *table(of_2019, kept)]) + "\n"
-
-
-def table(names: Iterable[str], kept: dict[str, dict[str, str]]) -> Iterator[str]:
-    """Yield the lines of a table of examples."""
     yield "| example | stands | carries | runs | at rest | down | throw of 95 % | farthest | made |"
     yield "| --- | --- | --- | --- | --- | --- | --- | --- | --- |"
     for name in names:
-        link = f"[{name}](../{SEEDED[name].relative_to(ROOT).as_posix()})"
+        link = f"[{name}]({posixpath.relpath(SEEDED[name].as_posix(), page.parent.as_posix())})"
         yield f"| {link} | {standing(kept.get(name))} | {carrying(kept.get(name))} | {of_runs(name)} |"
 
 

@@ -23,11 +23,12 @@ NOW = [name for name, path in examples_table.SEEDED.items() if path.parent != RE
 
 def test_the_page_is_what_its_script_makes():
     assert examples_table.PAGE.read_text(encoding="utf-8") == examples_table.page()
+    assert examples_table.PAGE_OF_2019.read_text(encoding="utf-8") == examples_table.page_of_2019()
 
 
 def test_all_examples_are_in_it():
     assert list(STATICS) == list(examples_table.SEEDED)
-    text = examples_table.page()
+    text = examples_table.page() + examples_table.page_of_2019()
     assert [name for name in examples_table.SEEDED if f"| [{name}](" not in text] == []
 
 

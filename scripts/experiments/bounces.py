@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measure how much of its speed a falling sphere keeps in Bullet, for the table in docs/contacts.md.
+"""Measure how much of its speed a falling sphere keeps in Bullet, for the table in README.md.
 
 Spheres of 1 m with a restitution of 0.5 on flat ground fall from 40 heights within 10 % of each of some, with some
 sub-steps in a frame of 1/24 s. Each row is printed as the page has it.
