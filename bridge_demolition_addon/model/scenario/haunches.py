@@ -75,9 +75,11 @@ class Haunches(Table):
             raise self.unexpected("length_m", f"more than half the length of the longest support, {half_m:g} (m)")
         for number, span in enumerate(after - before for before, after in pairwise(axes_m)):
             ends = (number in numbers) + (number + 1 in numbers)
-            if ends * self.length_m > span * (1.0 + ROUNDING):
+            # Over a support without one the deck is not deeper.
+            room = span - half_m if ends == 1 else span
+            if ends * self.length_m > room * (1.0 + ROUNDING):
                 raise self.unexpected(
-                    "length_m", f"at most {span / ends:g} (m), so that {ends} fit into span {number + 1} of {span:g} m"
+                    "length_m", f"at most {room / ends:g} (m), so that {ends} fit into span {number + 1} of {span:g} m"
                 )
 
     def check_depth(self, below_m: float, what: str) -> None:

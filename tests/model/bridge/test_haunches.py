@@ -119,6 +119,7 @@ def test_a_deck_knows_where_it_would_be_without_haunches():
     [
         (PLAIN, {"depth_m": 4.95}, r"depth_m is 4.95: expected less than bridge\.piers\.height_m, of which 4.9 \(m\)"),
         (PLAIN, {"length_m": 12}, r"length_m is 12.0: expected at most 11 \(m\), so that 2 fit into span 2 of 22 m"),
+        (PLAIN, {"length_m": 15.5, "supports": (2,)}, r"length_m is 15.5: expected at most 15.25 \(m\), so that 1 fit"),
         (PLAIN, {"length_m": 0.7}, r"length_m is 0.7: expected more than half .* longest support, 0.75 \(m\)"),
         (PLAIN, {"supports": (2, 5)}, r"different numbers up to 4"),
         (replace(PLAIN, voids=Voids(number=5, diameter_m=0.5)), {}, "haunches and bridge.voids are given together"),
