@@ -24,7 +24,6 @@ from .cracking import cracked_by_weight
 from .equilibrium import loads_of, model_at_rest, overloaded
 from .model import Model, build_model
 from .model_bearings import BearingForce
-from .slabs_on_columns import slabs_on_columns
 
 ONE_CUT = Text(
     "Single bearings are of this one cut: each seed shares what an axis carries "
@@ -148,7 +147,7 @@ def bearing_facts(
 def _alike_cuts_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
     """Yield how far off single bearings are where all seeds cut almost alike: another cut does not show it."""
     bridge = scenario.bridge
-    if bridge is None or bridge.alignment or not (bridge.girders or any(slabs_on_columns(scenario, model.members))):
+    if bridge is None or bridge.alignment or not (bridge.girders or model.has_lattices):
         return
     share = expected_single_deviation(bridge.skew_deg)
     if share is None:

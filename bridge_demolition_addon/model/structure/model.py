@@ -103,6 +103,8 @@ class Model:
         All layers of bars that the members have, by hand and by rule.
     bar_rows : BarRows or None
         Each layer across each face, of which `bars` are the sum; None without layers.
+    has_lattices : bool
+        Whether slabs on rows of columns are cut around lattices.
     """
 
     members: tuple[Member, ...]
@@ -127,6 +129,7 @@ class Model:
     tendons: ModelTendons | None = None
     layers: tuple[BarLayer, ...] = ()
     bar_rows: BarRows | None = None
+    has_lattices: bool = False
 
     def thicknesses_m(self) -> np.ndarray:
         """Return the thickness (m,) of the thinner of the members that each connection is between."""
@@ -209,6 +212,7 @@ def model_on(basis: ModelBasis, members: Sequence[Member] | None = None) -> Mode
         tendons=rows.part(ModelTendons),
         layers=reinforced.layers if reinforced else (),
         bar_rows=reinforced.rows if reinforced else None,
+        has_lattices=bool(fractured.in_lattices.any()),
     )
 
 

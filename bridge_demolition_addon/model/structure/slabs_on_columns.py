@@ -37,6 +37,9 @@ _LEAST_PARTS = 2
 _THINNEST = 0.5
 """Distance of rows by the slab's thickness down to which it is cut by a lattice."""
 
+_MOST_TIMES = 8.0
+"""Points of a lattice by shards asked for, up to which a slab is cut around it: columns very close would need more."""
+
 _CLEAR = 0.25
 """Part of a step that a point is away from the end of a slab at least."""
 
@@ -67,13 +70,14 @@ class SlabOnColumns:
     def points_m(self, shards: int, draw: np.random.Generator) -> FloatArray:
         """Return points (p, 3) of a lattice: as many as shards, or fewer, but from one column to the next two at least.
 
-        None where so many shards are much thinner than the slab.
+        None where so many shards are much thinner than the slab, or it would take many more.
         """
         parts = _LEAST_PARTS
         while len(self._lattice_m(parts + 1, _ROWS[0])) <= shards:
             parts += 1
         apart_m = self._spacing_m / parts
-        if apart_m < _THINNEST * float(np.ptp(self.corners_m[:, 2])):
+        is_thinner = apart_m < _THINNEST * float(np.ptp(self.corners_m[:, 2]))
+        if is_thinner or len(self._lattice_m(parts, _ROWS[0])) > _MOST_TIMES * shards:
             return np.zeros((0, 3))
         fitting = [lattice for ratio in _ROWS if len(lattice := self._lattice_m(parts, ratio)) <= shards]
         places = np.array(fitting[-1] if fitting else self._lattice_m(parts, _ROWS[0]))
