@@ -149,6 +149,10 @@ class Cracks:
             self._keep(holds)
         return gone
 
+    def ruptured_in_part(self) -> IntArray:
+        """Return the connections (d,) whose bars have ruptured at some corners, and hold at others."""
+        return self.rows[~self._holds.reshape(_COUNT, -1).all(axis=0)]
+
     def grip(self, positions_m: FloatArray, rotations: FloatArray) -> bool:
         """Let sides resist sliding by how they would be pressed with bodies at these positions.
 

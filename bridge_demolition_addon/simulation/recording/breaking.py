@@ -135,10 +135,10 @@ class Breaker:
     def _let_collide(self) -> None:
         """Let bodies collide that no connection holds together, nor reinforcement in place of one."""
         elastic, ruptured = self._resistance.elastic, self._resistance.ruptured
-        holding = elastic.holding(self._intact) if elastic else self._intact
-        if ruptured:
-            holding = holding | ruptured.lie_in_each_other(self._constraints.cracked, holding)
-        self._constraints.let_broken_collide(holding)
+        apart = elastic.keeping_apart(self._intact) if elastic else self._intact
+        if elastic and ruptured:
+            apart = apart | ruptured.lie_in_each_other(self._constraints.cracked, elastic.holding(self._intact))
+        self._constraints.let_broken_collide(apart)
 
 
 class ElasticPrediction(Driver):

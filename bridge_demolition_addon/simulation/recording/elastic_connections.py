@@ -176,6 +176,7 @@ class ElasticConnections:
         self._structure: ElasticStructure | None = None
         self._is_first = is_first
         self._inventory = inventory
+        self._on_ground = (inventory.body_kinds == "ground")[inventory.pairs].any(axis=1)
         self._cracks: Cracks | None = None
         self._expected: ExpectedCracks | None = None
         self.bare_bars = StandingBarsOfZones(self._reader, motion, self._masses, len(self._frames))
@@ -318,6 +319,18 @@ class ElasticConnections:
             return intact
         holding = intact.copy()
         holding[self._cracks.rows] = True
+        return holding
+
+    def keeping_apart(self, intact: np.ndarray) -> np.ndarray:
+        """Return which connections (m,) keep their bodies from colliding: all that hold but feet that bars leave.
+
+        Such a foot turns about the bars that are left. It would sink into the ground, which is found out at once when
+        the last of them has ruptured, and pushes it out with energy that is not there.
+        """
+        holding = self.holding(intact)
+        if self._cracks is not None:
+            leaving = self._cracks.ruptured_in_part()
+            holding[leaving[self._on_ground[leaving]]] = False
         return holding
 
     def failed_bearings(self, intact: np.ndarray, left: np.ndarray) -> np.ndarray:
