@@ -23,7 +23,7 @@ def test_a_run_made_again_has_the_outputs_that_are_kept(name):
 @pytest.mark.parametrize("name", sorted(EARLIER))
 def test_what_is_of_an_earlier_version_is_said_to_be_where_it_is_shown(name):
     pages = [path.read_text(encoding="utf-8") for path in (ROOT / "docs").glob("*.md")]
-    shown = [text for page in pages for text in page.split("\n\n") if f"{name}.toml)" in text and "These are" in text]
+    shown = [text for page in pages for text in page.split("\n\n") if f"{name}.toml)" in text and "They are" in text]
     assert shown and all("of an earlier version of the program" in " ".join(text.split()) for text in shown)
 
 
