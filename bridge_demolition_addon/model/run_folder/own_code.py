@@ -6,7 +6,7 @@ import hashlib
 from functools import cache
 from pathlib import Path
 
-from ...engineering.core.library import core_sources
+from ...engineering.core.library import core_sources, missing_core
 
 _PACKAGE = Path(__file__).resolve().parents[2]
 _CALCULATING = ("bullet", "engineering", "model", "scene", "simulation", "system")
@@ -17,8 +17,8 @@ _SHORT = 12
 
 @cache
 def own_code() -> str:
-    """Return the digest of the layers that calculate, and of the compiled core, in hexadecimal digits."""
-    digest = hashlib.sha256(core_sources().encode())
+    """Return the digest of the layers that calculate, and of the compiled core where there is one, in hexadecimal."""
+    digest = hashlib.sha256(b"" if missing_core() else core_sources().encode())
     for layer in _CALCULATING:
         for path in sorted((_PACKAGE / layer).rglob("*.py")):
             digest.update(path.relative_to(_PACKAGE).as_posix().encode() + b"\0")

@@ -142,7 +142,10 @@ def test_the_schedule_is_printed_with_steel_by_concrete(tmp_path):
 
 
 def test_bars_go_on_into_members_that_meet_without_a_bearing(tmp_path):
-    """A column on a footing: its own bars, over its section, times their yield strength."""
+    """A column on a footing: its own bars, as they pull across a crack of its section.
+
+    Near the pressed edge they do not yield: `test_starter_bars` has the moment against EN 1992-1-1, 6.1.
+    """
     parts = {
         "footing": ("footing", block((2.0, 2.0, 0.8), (0.0, 0.0, 0.0))),
         "column": ("pier", block((0.6, 0.6, 4.0), (0.7, 0.7, 0.8))),
@@ -152,7 +155,7 @@ def test_bars_go_on_into_members_that_meet_without_a_bearing(tmp_path):
     upright = sum(row.area_m2 for row in schedule.bars if "column" in row.members and row.layer.along == "z")
     between = built.member_of_shard[built.connections.pairs]
     rows_ = np.flatnonzero((between[:, 0] != between[:, 1]) & (built.connections.pairs >= 0).all(axis=1))
-    assert built.bars.yield_n[rows_].sum() == pytest.approx(500e6 * upright, rel=1e-3)
+    assert 0.9 < built.bars.yield_n[rows_].sum() / (500e6 * upright) < 1.0
     assert (built.bars.openings_m[rows_] > 0.0).all()
 
 
