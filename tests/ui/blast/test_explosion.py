@@ -6,7 +6,7 @@ from support.checkout import SMALL
 
 from bridge_demolition_addon.model.blast.charges import EXPLOSIVES
 from bridge_demolition_addon.model.blast.settings import BlastSettings
-from bridge_demolition_addon.model.bridge.layout import deck_top
+from bridge_demolition_addon.model.scenario.bridge_checks import deck_top
 from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.scene.blast.charges import blast_of, charge_objects, charges_of, keep_blast
 from bridge_demolition_addon.ui.blast import keep_shown_blast
