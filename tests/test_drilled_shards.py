@@ -26,9 +26,9 @@ def test_the_page_has_the_table():
 
 
 def test_what_the_page_says_comes_down():
-    """Of 200 shards in 15 of 20 runs; those of 100 and 400 are of an earlier version, as the page says, and all do."""
+    """Of 200 shards in 14 of 20 runs; those of 100 and 400 are of an earlier version, as the page says, and all do."""
     down = {shards: sum(map(drilled_shards.are_down, drilled_shards.rows(shards))) for shards in SEEDS}
-    assert down == {100: 20, 200: 15, 400: 6}
+    assert down == {100: 20, 200: 14, 400: 6}
 
 
 def test_debris_of_a_finer_cut_goes_as_far_within_the_ranges_over_seeds():
