@@ -39,7 +39,7 @@ from ..scenario import FractureSettings, Scenario
 from ..scenario.fracture import MemberFracture
 from ..schema import SHORTEST_LENGTH_M, given
 from .point_files import paint_from_file, points_from_file
-from .slabs_on_columns import SlabOnColumns, slabs_on_columns
+from .slabs_on_columns import SlabOnColumns, slabs_on_columns, supports_below
 from .steelwork import bar_joints, joint_faces, steel_fracture
 
 _DENSITY_SAMPLES = 4000
@@ -335,7 +335,8 @@ def _stations_m(
         pieces = min(int(counts[rows[0]]) // len(girders), *counts[rows[1:]].tolist(), int(length / shortest))
         draw = np.random.default_rng([scenario.seed, rows[0]])
         # Rigid connections share no load by their stiffness, and are cut as they were in 2019.
-        supports = _supports_m(members, rows[1], rows) if scenario.connections.is_elastic else []
+        _, below_m = supports_below(members, rows[1], rows)
+        supports = sorted(below_m[:, 0].tolist()) if scenario.connections.is_elastic else []
         places = _pieces_m(begin, begin + length, supports, pieces, shortest, draw)
         road = members[rows[0]].line
         if road is not None and road.bends_m is not None:
@@ -365,19 +366,6 @@ def _around_lattice(member: Member, points: np.ndarray, options: FractureOptions
         inside if len(inside) else part.vertices.mean(axis=0)[None] for part, inside in zip(parts, within, strict=True)
     ]
     return joined_fractures([voronoi_cells(part, inside, 0, options) for part, inside in zip(parts, own, strict=True)])
-
-
-def _supports_m(members: Sequence[Member], girder: int, cast: Sequence[int]) -> list[float]:
-    """Return the middles, along the road, of where a girder lies on what is not cast with it."""
-    corners = [members[girder].without_skew(member.solid.vertices) for member in members]
-    lowest, highest = corners[girder].min(axis=0), corners[girder].max(axis=0)
-    found = []
-    for row, other in enumerate(corners):
-        low, high = np.maximum(lowest, other.min(axis=0))[:2], np.minimum(highest, other.max(axis=0))[:2]
-        lies = abs(float(other[:, 2].max() - lowest[2])) < SHORTEST_LENGTH_M
-        if row not in cast and lies and (low < high).all():
-            found.append(0.5 * float(low[0] + high[0]))
-    return sorted(found)
 
 
 def _pieces_m(

@@ -125,7 +125,7 @@ def slabs_on_columns(scenario: Scenario, members: Sequence[Member]) -> Iterator[
         if member.kind != "deck" or member.parts or member.steel is not None:
             continue
         corners = member.without_skew(member.solid.vertices)
-        below, places = _supports(members, index)
+        below, places = supports_below(members, index, (index,))
         beside = abs(places[:, None, 0] - places[None, :, 0]) < _SAME_AXIS_M
         columns, axes = np.unique(places[beside.sum(axis=1) > 1, 1].round(6)), np.unique(places[:, 0].round(6))
         if len(columns) > 1 and len(axes) > 1:
@@ -133,15 +133,18 @@ def slabs_on_columns(scenario: Scenario, members: Sequence[Member]) -> Iterator[
             yield SlabOnColumns(index, below, axes, columns, ends)
 
 
-def _supports(members: Sequence[Member], slab: int) -> tuple[IntArray, FloatArray]:
-    """On which members (k,) a slab lies, and the middles (k, 2), along the road and across it, of where it does."""
-    corners = [members[slab].without_skew(member.solid.vertices) for member in members]
-    lowest, highest = corners[slab].min(axis=0), corners[slab].max(axis=0)
+def supports_below(members: Sequence[Member], carried: int, cast: Sequence[int]) -> tuple[IntArray, FloatArray]:
+    """Return on which members (k,) one lies that is not cast with it, and the middles (k, 2) of where it does.
+
+    Along the road and across it, without skew; `cast` are the members cast with it, itself among them.
+    """
+    corners = [members[carried].without_skew(member.solid.vertices) for member in members]
+    lowest, highest = corners[carried].min(axis=0), corners[carried].max(axis=0)
     rows, places = [], []
     for row, other in enumerate(corners):
         low, high = np.maximum(lowest, other.min(axis=0))[:2], np.minimum(highest, other.max(axis=0))[:2]
         lies = abs(float(other[:, 2].max() - lowest[2])) < SHORTEST_LENGTH_M
-        if row != slab and lies and (low < high).all():
+        if row not in cast and lies and (low < high).all():
             rows.append(row)
             places.append(0.5 * (low + high))
     return np.array(rows, int), np.array(places).reshape(-1, 2)

@@ -135,9 +135,10 @@ class Breaker:
     def _let_collide(self) -> None:
         """Let bodies collide that no connection holds together, nor reinforcement in place of one."""
         elastic, ruptured = self._resistance.elastic, self._resistance.ruptured
-        apart = elastic.keeping_apart(self._intact) if elastic else self._intact
-        if elastic and ruptured:
-            apart = apart | ruptured.lie_in_each_other(self._constraints.cracked, elastic.holding(self._intact))
+        holding = elastic.holding(self._intact) if elastic else self._intact
+        apart = elastic.keeping_apart(holding) if elastic else holding
+        if ruptured:
+            apart = apart | ruptured.lie_in_each_other(self._constraints.cracked, holding)
         self._constraints.let_broken_collide(apart)
 
 

@@ -321,17 +321,18 @@ class ElasticConnections:
         holding[self._cracks.rows] = True
         return holding
 
-    def keeping_apart(self, intact: np.ndarray) -> np.ndarray:
-        """Return which connections (m,) keep their bodies from colliding: all that hold but feet that bars leave.
+    def keeping_apart(self, holding: np.ndarray) -> np.ndarray:
+        """Return which of connections (m,) keep their bodies from colliding: all that hold but feet that bars leave.
 
         Such a foot turns about the bars that are left. It would sink into the ground, which is found out at once when
         the last of them has ruptured, and pushes it out with energy that is not there.
         """
-        holding = self.holding(intact)
-        if self._cracks is not None:
-            leaving = self._cracks.ruptured_in_part()
-            holding[leaving[self._on_ground[leaving]]] = False
-        return holding
+        if self._cracks is None:
+            return holding
+        leaving = self._cracks.ruptured_in_part()
+        apart = holding.copy()
+        apart[leaving[self._on_ground[leaving]]] = False
+        return apart
 
     def failed_bearings(self, intact: np.ndarray, left: np.ndarray) -> np.ndarray:
         """Return the connections (b,) at pads, of those (m,) that are intact, that break before the coming sub-step.
