@@ -26,6 +26,37 @@ SQUARE: Rows = ((1.0, 0.0), (0.0, 1.0))
 """Rows that leave positions on plan as they are."""
 
 
+@dataclass(frozen=True, slots=True)
+class Taper:
+    """A column that leans across the road and is longer at its foot, by height below the middle of its top.
+
+    Positions on plan are those of the member without its turn. `lean` is how far its axis moves towards positive y, and
+    `growth` by how much it gets longer, for each metre down.
+    """
+
+    middle_m: tuple[float, float]
+    top_m: float
+    length_m: float
+    growth: float
+    lean: float
+
+    def from_world(self, points_m: np.ndarray) -> np.ndarray:
+        """Return positions (..., 3) as they would be in an upright column as long as its top."""
+        return self._mapped(points_m, -1.0)
+
+    def to_world(self, own_m: np.ndarray) -> np.ndarray:
+        """Return positions (..., 3) in the column of those in an upright one."""
+        return self._mapped(own_m, 1.0)
+
+    def _mapped(self, points_m: np.ndarray, sign: float) -> np.ndarray:
+        mapped, down = points_m.copy(), self.top_m - points_m[..., 2]
+        longer = 1.0 + self.growth / self.length_m * down
+        offset = points_m[..., 0] - self.middle_m[0]
+        mapped[..., 0] = self.middle_m[0] + (offset * longer if sign > 0.0 else offset / longer)
+        mapped[..., 1] += sign * self.lean * down
+        return mapped
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class SteelPart:
     """What a member of steelwork is beside its solid: a bar between two nodes, or a node, which has no bar.
@@ -60,6 +91,7 @@ class Member:
     parts: tuple[TriangleMesh, ...] = ()
     unskewed: Rows = SQUARE  # by which positions on plan are as they would be without skew
     line: RoadLine | None = None  # that it was made for, straight, square and level; its skew included
+    taper: Taper | None = None  # of a column that leans or has batter
     steel: SteelPart | None = None  # of steelwork alone, which is cut and connected by itself
     keeps_parts: bool = False  # whether each of its parts takes a shard at least, as of a deck on pieces of girders
     is_in_pieces: bool = False  # the same of what is cut into its parts first, as an arch
@@ -74,7 +106,10 @@ class Member:
 
     def without_skew(self, points_m: np.ndarray) -> np.ndarray:
         """Return positions (..., 3) as they would be in the member if it stood square to a straight, level road."""
-        return self.line.from_world(points_m) if self.line else self._mapped(points_m, self.unskewed)
+        if self.line:
+            return self.line.from_world(points_m)
+        upright = self._mapped(points_m, self.unskewed)
+        return self.taper.from_world(upright) if self.taper else upright
 
     def with_skew(self, points_m: np.ndarray) -> np.ndarray:
         """Return positions (..., 3) in the member of what `without_skew` gave."""
@@ -82,7 +117,8 @@ class Member:
             return self.line.to_world(points_m)
         (a, b), (c, d) = self.unskewed
         whole = a * d - b * c
-        return self._mapped(points_m, ((d / whole, -b / whole), (-c / whole, a / whole)))
+        placed = self.taper.to_world(points_m) if self.taper else points_m
+        return self._mapped(placed, ((d / whole, -b / whole), (-c / whole, a / whole)))
 
     @staticmethod
     def _mapped(points_m: np.ndarray, rows: Rows) -> np.ndarray:

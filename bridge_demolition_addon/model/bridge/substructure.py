@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
 
+from ...engineering.arithmetic import cosine
 from ...engineering.geometry.arches import RoadProfile, across_road
 from ...engineering.geometry.mesh import TriangleMesh
 from ...engineering.geometry.solids import box, round_column
-from ...engineering.geometry.vectors import unit
+from ...engineering.geometry.vectors import transformed, unit
 from ..scenario import Bridge
 from ..scenario.arch import ARCH_KIND, BLOCK_KIND
 from ..scenario.bridge_checks import (
@@ -24,7 +26,7 @@ from ..scenario.bridge_checks import (
     rib_axes_m,
     springing_axes_m,
 )
-from ..scenario.bridge_parts import Abutments, PierCaps
+from ..scenario.bridge_parts import Abutments, PierCaps, Piers
 from ..schema import given
 from .layout import (
     GroundHeight,
@@ -38,7 +40,7 @@ from .layout import (
     without_shear,
     without_turn,
 )
-from .member import Member
+from .member import Member, Rows, Taper
 
 LEG = "leg"
 
@@ -163,20 +165,20 @@ def _piers(bridge: Bridge, axes: np.ndarray, ground: GroundHeight) -> list[Membe
     parts = []
     for number, axis in enumerate(axes, start=1):
         if bridge.pier_caps:
-            cap = _pier_cap(bridge, bridge.pier_caps, axis)
+            cap = _pier_cap(bridge, bridge.pier_caps, number, axis)
             own, solid = without_shear(bridge, axis), seated(bridge, axis, cap)
             parts.append(Member(f"pier {number} cap", "pier cap", solid, unskewed=own, line=axis_line(bridge, axis)))
         parts += _columns(bridge, number, axis, ground)
     return parts
 
 
-def _pier_cap(bridge: Bridge, cap: PierCaps, axis: float) -> TriangleMesh:
+def _pier_cap(bridge: Bridge, cap: PierCaps, number: int, axis: float) -> TriangleMesh:
     foot = given(bridge.piers).height_m - lower_by_m(bridge, axis)
     if cap.end_height_m is None:
         middle = (axis, 0.0, foot + cap.height_m / 2.0)
         return skewed(bridge, box((cap.length_m, cap.width_m, cap.height_m), middle))
     half, top = 0.5 * cap.width_m, foot + cap.height_m
-    level, end = bridge.columns_half_width_m, top - cap.end_height_m
+    level, end = bridge.columns_half_width_m(bridge.piers_of(number)), top - cap.end_height_m
     outline = [(-level, foot), (level, foot), (half, end), (half, top), (-half, top), (-half, end)]
     along = across_road(np.array(outline), cap.length_m)
     # Turned by a right angle: what ran along the road runs across it.
@@ -186,18 +188,44 @@ def _pier_cap(bridge: Bridge, cap: PierCaps, axis: float) -> TriangleMesh:
 
 def _columns(bridge: Bridge, number: int, axis: float, ground: GroundHeight) -> list[Member]:
     """Columns of one pier, each in the middle of its share of the width that they carry, or its wall."""
-    piers = given(bridge.piers)
+    piers = bridge.piers_of(number)
     top, parts = piers.height_m - lower_by_m(bridge, axis), []
     for column in range(piers.columns):
-        across = bridge.carried_width_m * ((column + 0.5) / piers.columns - 0.5)
+        share = (column + 0.5) / piers.columns - 0.5
+        across = bridge.carried_width_m * share
+        outwards = _outwards_m(bridge, piers, share)
         name = f"pier {number}" if piers.columns == 1 else f"pier {number} column {column + 1}"
         seat = seat_m(bridge, axis, across, top)
-        foot = foot_m(name, seat, ground, is_level=bridge.alignment is None)
+        on_ground = (*seat_m(bridge, axis, across + outwards, top)[:2], seat[2]) if outwards else seat
+        foot = foot_m(name, on_ground, ground, is_level=bridge.alignment is None)
         low = foot + (top - seat[2])
         size = (piers.column_length_m, piers.column_width_m, top - low)
         middle = (axis, across, (top + low) / 2.0)
         upright = round_column(size[0], size[2], middle) if piers.is_round else box(size, middle)
-        solid = skewed(bridge, upright) if piers.is_wall else turned_with_axis(bridge, upright, axis, across)
         unskewed = without_shear(bridge, axis) if piers.is_wall else without_turn(bridge, axis)
-        parts.append(Member(name, "pier", seated(bridge, axis, solid, foot), unskewed=unskewed))
+        taper = _taper(bridge, piers, outwards / size[2], (seat, unskewed))
+        if taper:
+            upright = replace(
+                upright, vertices=replace(taper, middle_m=(axis, across), top_m=top).to_world(upright.vertices)
+            )
+        solid = skewed(bridge, upright) if piers.is_wall else turned_with_axis(bridge, upright, axis, across)
+        parts.append(Member(name, "pier", seated(bridge, axis, solid, foot), unskewed=unskewed, taper=taper))
     return parts
+
+
+def _outwards_m(bridge: Bridge, piers: Piers, share: float) -> float:
+    """Return how far across the road the foot of a column is from its top, at a share of the width that is carried."""
+    if piers.feet_apart_m is None:
+        return 0.0
+    apart = piers.feet_apart_m / (1.0 - 1.0 / piers.columns)
+    return share * (apart - bridge.carried_width_m)
+
+
+def _taper(bridge: Bridge, piers: Piers, lean: float, top: tuple[tuple[float, float, float], Rows]) -> Taper | None:
+    """Return how a column leans and grows towards its foot, from its top and the rows without its turn."""
+    if not (lean or piers.batter_percent):
+        return None
+    (x, y, height), rows = top
+    along, across = transformed(np.array(rows), np.array([[x, y]]))[0].tolist()
+    turned = lean if piers.is_wall else lean / float(cosine(math.radians(bridge.skew_deg)))
+    return Taper((along, across), height, piers.column_length_m, 0.02 * piers.batter_percent, turned)

@@ -175,14 +175,14 @@ def pier_bars(basis: DesignBasis, loads: Sequence[SupportLoad]) -> Rows:
     bridge = basis.bridge
     on_piers = loads[1:-1] if bridge.abutments else loads
     for number, load in enumerate(on_piers, start=1):
-        yield from _pier(basis, f"pier {number}", load)
+        yield from _pier(basis, number, load)
     for abutment in basis.of_kind("abutment"):
         sizes = given(bridge.abutments)
         yield from _wall(basis, abutment, sizes.length_m, sizes.width_m, "abutment", 0.0)
 
 
-def _pier(basis: DesignBasis, name: str, load: SupportLoad) -> Rows:
-    piers = given(basis.bridge.piers)
+def _pier(basis: DesignBasis, number: int, load: SupportLoad) -> Rows:
+    piers, name = basis.bridge.piers_of(number), f"pier {number}"
     columns = [m for m in basis.of_kind("pier") if m.name == name or m.name.startswith(f"{name} column ")]
     permanent_n = load.permanent_n / len(columns)
     if caps := basis.bridge.pier_caps:

@@ -21,7 +21,7 @@ from .arch import Arch, RigidFrame
 from .ball import Ball, BallCable, BallHit
 from .bodies import Equipment, Ground, GroundSurface, ShardSettings, Support
 from .bridge import Bridge
-from .bridge_parts import Abutments, BoxGirder, Deck, Girders, PierCaps, Piers, Voids
+from .bridge_parts import Abutments, BoxGirder, Deck, Girders, OtherPiers, PierCaps, Piers, Voids
 from .connections import ConnectionSettings
 from .contacts import ContactSettings, SurfaceValues
 from .dead_loads import DeadLoad
@@ -81,6 +81,7 @@ __all__ = [
     "MemberCut",
     "MemberFracture",
     "Neighbour",
+    "OtherPiers",
     "PictureSettings",
     "PierCaps",
     "Piers",

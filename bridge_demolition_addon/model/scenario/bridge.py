@@ -12,7 +12,7 @@ from .alignment import Alignment
 from .arch import Arch, RigidFrame
 from .bearings import BearingOfBridge
 from .bridge_checks import check_bridge
-from .bridge_parts import Abutments, BoxGirder, BridgeBearings, Deck, Girders, PierCaps, Piers, Voids
+from .bridge_parts import Abutments, BoxGirder, BridgeBearings, Deck, Girders, OtherPiers, PierCaps, Piers, Voids
 from .half_joints import BEHIND, HalfJoint, pinned_supports
 from .haunches import Haunches
 from .reinforcement import BridgeReinforcement
@@ -63,6 +63,7 @@ class Bridge(Table):
     haunches: Haunches | None = None
     half_joints: tuple[HalfJoint, ...] = ()
     piers: Piers | None = None
+    other_piers: tuple[OtherPiers, ...] = ()
     pier_caps: PierCaps | None = None
     abutments: Abutments | None = None
     arch: Arch | None = None
@@ -122,7 +123,12 @@ class Bridge(Table):
             return f"leg {number}"
         if self.pier_caps:
             return f"pier {number} cap"
-        return f"pier {number}" if given(self.piers).columns == 1 else f"pier {number} column *"
+        return f"pier {number}" if self.piers_of(number).columns == 1 else f"pier {number} column *"
+
+    def piers_of(self, number: int) -> Piers:
+        """Return what a pier is like, by its number."""
+        others = (table.of(given(self.piers)) for table in self.other_piers if number in table.piers)
+        return next(others, given(self.piers))
 
     @property
     def spans_m(self) -> float:
@@ -153,10 +159,8 @@ class Bridge(Table):
             return self.box_girder.width_m
         return self.girders.number * self.girder_spacing_m if self.girders else self.deck.width_m
 
-    @property
-    def columns_half_width_m(self) -> float:
+    def columns_half_width_m(self, piers: Piers) -> float:
         """Return how far across the road the outer faces of the outermost columns are from its middle."""
-        piers = given(self.piers)
         return 0.5 * (self.carried_width_m * (1.0 - 1.0 / piers.columns) + piers.column_width_m)
 
     def _check_together(self) -> None:

@@ -119,15 +119,26 @@ def upright_names(bridge: Bridge) -> list[list[str]]:
     if bridge.frame:
         count, kind, beside = len(leg_axes_m(bridge)), "leg", "."
         each = bridge.frame.legs
+        numbers = [each] * count
     elif bridge.piers:
-        count, kind, beside = len(axes_m(bridge)) - (2 if bridge.abutments else 0), "pier", " column "
-        each = bridge.piers.columns
+        kind, beside = "pier", " column "
+        numbers = [bridge.piers_of(pier).columns for pier in range(1, pier_count(bridge) + 1)]
     else:
         return []
     return [
         [f"{kind} {axis}"] if each == 1 else [f"{kind} {axis}{beside}{number}" for number in range(1, each + 1)]
-        for axis in range(1, count + 1)
+        for axis, each in enumerate(numbers, start=1)
     ]
+
+
+def pier_count(bridge: Bridge) -> int:
+    """Return how many axes have piers."""
+    return len(axes_m(bridge)) - (2 if bridge.abutments else 0)
+
+
+def kinds_of_piers(bridge: Bridge) -> list[Piers]:
+    """Return all that piers are like; none of a bridge without."""
+    return [bridge.piers, *(table.of(bridge.piers) for table in bridge.other_piers)] if bridge.piers else []
 
 
 def axes_on_arch_m(bridge: Bridge) -> list[float]:
@@ -162,8 +173,10 @@ def check_bridge(bridge: Bridge) -> None:
     _check_joints(bridge)
     if bridge.alignment or bridge.haunches:
         _check_line(bridge)
-    if bridge.piers:
-        _check_room_across(bridge, bridge.piers)
+    for piers in kinds_of_piers(bridge):
+        _check_room_across(bridge, piers)
+    if bridge.other_piers or any(piers.batter_percent or piers.feet_apart_m for piers in kinds_of_piers(bridge)):
+        _check_other_piers(bridge)
     if bridge.half_joints:
         _check_half_joints(bridge)
     if bridge.merge:
@@ -247,17 +260,53 @@ def _check_superstructure(bridge: Bridge) -> None:
         )
 
 
-def _column_turn(bridge: Bridge) -> float:
+def _check_other_piers(bridge: Bridge) -> None:
+    for name in ("arch", "frame", "merge"):
+        if getattr(bridge, name):
+            raise ScenarioError(
+                f"bridge.{name} is given: expected none with bridge.other_piers, or with batter_percent or "
+                "feet_apart_m of piers"
+            )
+    if bridge.piers is None:
+        raise ScenarioError("bridge.other_piers are given: expected none without bridge.piers, from which they differ")
+    numbers = [number for table in bridge.other_piers for number in table.piers]
+    for table in bridge.other_piers:
+        if max(table.piers) > pier_count(bridge):
+            raise table.unexpected("piers", f"numbers up to {pier_count(bridge)}, that of the last pier")
+        if any(numbers.count(number) > 1 for number in table.piers):
+            raise table.unexpected("piers", "each pier once in all [[bridge.other_piers]]")
+    for piers in kinds_of_piers(bridge):
+        _check_leaning(bridge, piers)
+
+
+def _check_leaning(bridge: Bridge, piers: Piers) -> None:
+    shortest = min(bridge.span_lengths_m)
+    if piers.foot_length_m() >= shortest:
+        raise piers.unexpected(
+            "batter_percent", f"less: feet {piers.foot_length_m():g} m long do not fit into a span of {shortest:g} m"
+        )
+    if piers.feet_apart_m is None:
+        return
+    tops = bridge.carried_width_m * (1.0 - 1.0 / piers.columns)
+    if 0.5 * abs(piers.feet_apart_m - tops) > piers.height_m:
+        room = f"within {2.0 * piers.height_m:g} m of {tops:g} (m), their distance at the top"
+        raise piers.unexpected("feet_apart_m", f"{room}, so that columns lean by 45° at most")
+    if bridge.reinforcement and bridge.reinforcement.is_designed and bridge.reinforcement.has_bars:
+        raise bridge.reinforcement.refused(
+            "expected [[bridge.reinforcement.ratios]] with feet_apart_m of piers, or [[reinforcement]]: the tie "
+            "between leaning columns is not designed for"
+        )
+
+
+def _column_turn(bridge: Bridge, piers: Piers) -> float:
     """Return a column's length along the road over the room it takes there once it is turned."""
-    piers = given(bridge.piers)
     return 1.0 if piers.is_wall or piers.is_round else float(cosine(math.radians(bridge.skew_deg)))
 
 
 def _longest_support_m(bridge: Bridge) -> float:
     """Return the length along the road of the longest of what carries the deck."""
     lengths = [bridge.abutments.length_m] if bridge.abutments else []
-    if bridge.piers:
-        lengths.append(bridge.piers.column_length_m / _column_turn(bridge))
+    lengths += [piers.column_length_m / _column_turn(bridge, piers) for piers in kinds_of_piers(bridge)]
     if bridge.pier_caps:
         lengths.append(bridge.pier_caps.length_m)
     return max(lengths)
@@ -272,7 +321,7 @@ def _half_support_m(bridge: Bridge) -> float:
 
 def _widest_m(bridge: Bridge) -> float:
     widths = [part.width_m for part in (bridge.deck, bridge.pier_caps, bridge.abutments) if part]
-    return max([*widths, bridge.piers.column_width_m if bridge.piers else 0.0])
+    return max([*widths, *(piers.column_width_m for piers in kinds_of_piers(bridge))])
 
 
 def _check_curve(bridge: Bridge, alignment: Alignment, radius_m: float) -> None:
@@ -321,8 +370,7 @@ def _check_haunches(bridge: Bridge, haunches: Haunches) -> None:
 def _check_room_along(bridge: Bridge) -> None:
     shortest = min(bridge.span_lengths_m)
     supports: list[tuple[Table, str, float]] = []
-    if bridge.piers:
-        supports.append((bridge.piers, "column_length_m", _column_turn(bridge)))
+    supports += [(piers, "column_length_m", _column_turn(bridge, piers)) for piers in kinds_of_piers(bridge)]
     if bridge.pier_caps:
         supports.append((bridge.pier_caps, "length_m", 1.0))
     for part, name, turn in supports:
@@ -345,7 +393,8 @@ def _check_joints(bridge: Bridge) -> None:
     """Check that both decks at a joint lie on the pier under it."""
     if bridge.deck.joint_gap_m <= 0.0 or len(bridge.span_lengths_m) == 1:
         return
-    support = bridge.pier_caps.length_m if bridge.pier_caps else given(bridge.piers).column_length_m
+    lengths = [piers.column_length_m for piers in kinds_of_piers(bridge)]
+    support = bridge.pier_caps.length_m if bridge.pier_caps else min(lengths)
     if bridge.deck.joint_gap_m >= support:
         wanted = f"less than {support} (m), the length of the pier or pier cap that carries both decks"
         raise bridge.deck.unexpected("joint_gap_m", wanted)
@@ -358,7 +407,11 @@ def _check_room_across(bridge: Bridge, piers: Piers) -> None:
         wanted = f"at most {widest:.6g} (m), so that the columns fit into {carried.table}.width_m"
         raise piers.unexpected("column_width_m", wanted)
     caps = bridge.pier_caps
-    if caps and caps.end_height_m is not None and bridge.columns_half_width_m >= 0.5 * caps.width_m * (1.0 - ROUNDING):
+    if (
+        caps
+        and caps.end_height_m is not None
+        and bridge.columns_half_width_m(piers) >= 0.5 * caps.width_m * (1.0 - ROUNDING)
+    ):
         raise caps.unexpected("end_height_m", "none where the columns reach to the ends of bridge.pier_caps.width_m")
     if bridge.girders and not bridge.pier_caps:
         _check_columns_under_girders(bridge, piers, bridge.girders, widest)

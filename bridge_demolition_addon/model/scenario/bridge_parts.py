@@ -1,13 +1,32 @@
 """The parts of a bridge: deck, girders, piers, abutments and bearings."""
 
 import math
-from dataclasses import dataclass, replace
-from typing import ClassVar
+from dataclasses import dataclass, fields, replace
+from typing import Any, ClassVar
 
 from ..schema import DENSITY, FARTHEST_M, ROUNDING, SIZE, Table, key
 from .bearings import PINNED, ROCKER, SLIDING, BearingOfBridge
 
 _OWN_DENSITY = "Density of {}, where it is not that of the whole bridge."
+
+PIER_KINDS = ("columns", "round columns", "wall")
+_KIND = (
+    "Columns of rectangular section, round ones, or one wall across the road. The keys of a column give the size of "
+    "the wall; both sizes of a round one are its diameter."
+)
+_COLUMNS = "Columns of one pier, spread evenly across the road."
+_COUNT: dict[str, Any] = {"at_least": 1, "at_most": 1000}
+_LENGTH = "Size of a column along the road."
+_WIDTH = "Size of a column across the road."
+_BATTER = (
+    "By how much the two faces of a wall or column that look along the road lean, in percent of the height: 5 is 1 to "
+    "20. Sizes are those at the top."
+)
+_SLOPE: dict[str, Any] = {"unit": "%", "at_least": 0, "at_most": 50}
+_FEET = (
+    "Distance across the road between the axes of the outermost columns at their feet, where it is not that at their "
+    "tops: less for a V, more for legs that spread."
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -123,18 +142,15 @@ class Piers(Table):
 
     table: ClassVar[str] = "bridge.piers"
 
-    kind: str = key(
-        "Columns of rectangular section, round ones, or one wall across the road. The keys of a column give the size "
-        "of the wall; both sizes of a round one are its diameter.",
-        default="columns",
-        choices=("columns", "round columns", "wall"),
-    )
-    columns: int = key("Columns of one pier, spread evenly across the road.", default=1, at_least=1, at_most=1000)
-    column_length_m: float = key("Size of a column along the road.", **SIZE)
-    column_width_m: float = key("Size of a column across the road.", **SIZE)
+    kind: str = key(_KIND, default="columns", choices=PIER_KINDS)
+    columns: int = key(_COLUMNS, default=1, **_COUNT)
+    column_length_m: float = key(_LENGTH, **SIZE)
+    column_width_m: float = key(_WIDTH, **SIZE)
     height_m: float = key(
         "Height of a column above the ground; where that is not flat, of its top above height 0.", **SIZE
     )
+    batter_percent: float = key(_BATTER, default=0.0, **_SLOPE)
+    feet_apart_m: float | None = key(_FEET, default=None, **SIZE)
     density_kg_m3: float | None = key(_OWN_DENSITY.format("the piers"), **DENSITY)
 
     @property
@@ -152,6 +168,50 @@ class Piers(Table):
         if self.is_round and abs(self.column_width_m - self.column_length_m) > ROUNDING * self.column_length_m:
             same = f"{self.column_length_m:g} (m) as bridge.piers.column_length_m"
             raise self.unexpected("column_width_m", f"{same}: both are the diameter of round columns")
+        if self.is_round and self.batter_percent:
+            raise self.unexpected("batter_percent", "0 with round columns")
+        self._check_feet()
+
+    def foot_length_m(self) -> float:
+        """Return the size of a column along the road at a foot as far down as the height says."""
+        return self.column_length_m + 0.02 * self.batter_percent * self.height_m
+
+    def _check_feet(self) -> None:
+        if self.feet_apart_m is None:
+            return
+        if self.columns == 1:
+            raise self.unexpected("feet_apart_m", f"none with {self.table}.columns = 1")
+        least = (self.columns - 1) * self.column_width_m
+        if self.feet_apart_m < least * (1.0 - ROUNDING):
+            raise self.unexpected("feet_apart_m", f"at least {least:g} (m), so that feet of columns do not overlap")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _OtherKindOfPiers(Piers):
+    """Piers with what is their own; messages name the table that says it."""
+
+    table: ClassVar[str] = "bridge.other_piers"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class OtherPiers(Table):
+    """Piers that differ from the others: what is left out is as in `[bridge.piers]`."""
+
+    table: ClassVar[str] = "bridge.other_piers"
+
+    piers: tuple[int, ...] = key("Which piers, by the numbers that `bda check` lists.", at_least=1)
+    kind: str | None = key(_KIND, default=None, choices=PIER_KINDS)
+    columns: int | None = key(_COLUMNS, default=None, **_COUNT)
+    column_length_m: float | None = key(_LENGTH, default=None, **SIZE)
+    column_width_m: float | None = key(_WIDTH, default=None, **SIZE)
+    batter_percent: float | None = key(_BATTER, default=None, **_SLOPE)
+    feet_apart_m: float | None = key(_FEET, default=None, **SIZE)
+
+    def of(self, piers: Piers) -> Piers:
+        """Return the other piers with what these have of their own."""
+        held = {item.name: getattr(piers, item.name) for item in fields(piers)}
+        own = {item.name: getattr(self, item.name) for item in fields(self) if item.name in held}
+        return _OtherKindOfPiers(**held | {name: value for name, value in own.items() if value is not None})
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
