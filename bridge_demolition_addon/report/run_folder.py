@@ -18,7 +18,7 @@ from ..model.changes.bare_bars import bare_bars_text
 from ..model.debris.footprint import check_covers_ground
 from ..model.results.arrays import FRAMES_FILE, RESULTS_FILE, Results, load_results, results_in
 from ..model.results.collapse import ShardRest, rest_of
-from ..model.results.energy import is_known, made_share, much_made_text
+from ..model.results.energy import counted_share, is_known, made_share, much_made_text
 from ..model.results.motion import without_removed
 from ..model.results.moving import gone_text, moving_summary, moving_text
 from ..model.results.summary import hits_of_balls, impact_of, largest_throw
@@ -89,9 +89,10 @@ class ReportedRun:
     @property
     def first_doubts(self) -> tuple[str, ...]:
         """What has to be said before any of its results, as sentences without full stops."""
-        made = made_share(self.recorded) if is_known(self.recorded) else 0.0
+        known = is_known(self.recorded)
+        much_made = much_made_text(counted_share(self.recorded), made_share(self.recorded)) if known else ""
         unusual = (self.summary.values.get("stability") or {}).get("unusual", ()) if self.summary else ()
-        texts = gone_text(self._as_recorded), much_made_text(made), self.ending.text, self.still_moving, *unusual
+        texts = gone_text(self._as_recorded), much_made, self.ending.text, self.still_moving, *unusual
         return tuple(filter(None, texts))
 
     @property

@@ -92,6 +92,10 @@ ACCEPTED_SHARE = 0.01
 LARGE_SHARE = 0.05
 """The same, from which on that is said before any result: beside it, distances of debris are doubtful as a whole."""
 
+SMALL_DROP_M = 0.01
+"""A fall of all shards. What the solver made is set against its energy where less was dissipated: `LARGE_SHARE` of it
+throws one of a hundred equal shards by v² / g = 0.1 m at most, which is `MOVED_M`."""
+
 FARTHEST = 10
 """Shards whose energies the summary names."""
 
@@ -189,6 +193,7 @@ def energy_summary(results: Results) -> dict[str, Any] | None:
         "made_by_solver": {
             "J": totals["made_j"],
             "share_of_dissipated": made_share(results),
+            "share_that_counts": counted_share(results),
             "by_connections_J": totals["made_by_connections_j"],
             "by_contacts_J": totals["made_by_contacts_j"],
             "by_lifting_J": totals["made_by_lifting_j"],
@@ -218,19 +223,36 @@ def is_known(results: Results) -> bool:
     return bool(np.isfinite(results.frames.work.gravity_j[1:]).all()) and len(results.frames) > 1
 
 
-def much_made_text(share: float) -> str:
-    """Return that the solver made much energy, as a sentence without a full stop; empty for little."""
-    if share <= LARGE_SHARE:
+def much_made_text(counted: float, of_dissipated: float) -> str:
+    """Return that the solver made much energy by the share that counts, as a sentence without a full stop, or nothing.
+
+    The sentence has the share of what was dissipated.
+    """
+    if counted <= LARGE_SHARE:
         return ""
     return Text(
         "This run is not to be used for distances: the solver made {} % of what was "
         "dissipated, more than {} %, and debris may be thrown too far",
-        f"{100.0 * share:.1f}",
+        f"{100.0 * of_dissipated:.1f}",
         f"{100.0 * LARGE_SHARE:g}",
     )
 
 
 def made_share(results: Results) -> float:
     """Return the energy that the solver made over what was dissipated; 0 where nothing was."""
-    dissipated = float(np.nansum(results.frames.work.dissipated_j))
-    return float(np.nansum(results.frames.work.made_j)) / dissipated if dissipated > 0.0 else 0.0
+    return _made_over(results, 0.0)
+
+
+def counted_share(results: Results) -> float:
+    """Return the energy that the solver made over what was dissipated, or over a small drop where that is more.
+
+    A bridge that stands dissipates next to nothing, so that a joule or two would count as much.
+    """
+    inventory = results.inventory
+    weight_n = STANDARD_GRAVITY_M_S2 * float(inventory.masses_kg[inventory.of_kind("shard")].sum())
+    return _made_over(results, weight_n * SMALL_DROP_M)
+
+
+def _made_over(results: Results, least_j: float) -> float:
+    against = max(float(np.nansum(results.frames.work.dissipated_j)), least_j)
+    return float(np.nansum(results.frames.work.made_j)) / against if against > 0.0 else 0.0

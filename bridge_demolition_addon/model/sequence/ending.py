@@ -201,9 +201,10 @@ def first_doubts(summary: Mapping[str, Any]) -> tuple[str, ...]:
 
 def unusable_texts(summary: Mapping[str, Any]) -> tuple[str, ...]:
     """Return why a run is not to be used, as sentences without full stops: shards that are gone, energy made."""
-    energy = summary.get("energy")
-    made = energy["made_by_solver"]["share_of_dissipated"] if energy else 0.0
-    return tuple(text for text in (gone_text(summary), much_made_text(made)) if text)
+    made = (summary.get("energy") or {}).get("made_by_solver", {})
+    of_dissipated = made.get("share_of_dissipated", 0.0)
+    much_made = much_made_text(made.get("share_that_counts", of_dissipated), of_dissipated)
+    return tuple(text for text in (gone_text(summary), much_made) if text)
 
 
 def only_motion_text(summary: Mapping[str, Any]) -> str:

@@ -145,7 +145,7 @@ def _course(results: Results, summary: Mapping[str, Any], scenario: Scenario) ->
         RESTED: summary.get("came_to_rest_s"),
         MOVING: moving["shards"] if (moving := summary.get("moving_at_end")) else 0,
         "largest_force_N": force and force["force_N"],
-        "made_by_solver_share": energy and energy["made_by_solver"]["share_of_dissipated"],
+        "made_by_solver_share": energy and energy["made_by_solver"]["share_that_counts"],
     }
     lengths = scenario.bridge.span_lengths_m if scenario.bridge else ()
     for span in spans_of(results, lengths):

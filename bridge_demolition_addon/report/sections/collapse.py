@@ -10,7 +10,7 @@ from ...charts.histories import energy_history, progress_history, span_heights
 from ...engineering.mechanics.work import FrameWork
 from ...model.results.arrays import Results
 from ...model.results.collapse import REST_SPEED_M_S, Span, collapse_progress, spans_of
-from ...model.results.energy import ACCEPTED_SHARE, Energy, energy_of, is_known, made_share
+from ...model.results.energy import ACCEPTED_SHARE, Energy, counted_share, energy_of, is_known, made_share
 from ...texts import Quantity, Text, joined
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section, facts
 from ..findings import NO_OUTCOME
@@ -81,7 +81,7 @@ def _solver_blocks(results: Results) -> list[Block]:
         (Text("Work of tools"), Quantity(np.nansum(work.tools_j) / 1e6, "MJ", ".3f")),
     ]
     blocks: list[Block] = [Paragraph(words), facts("Energy made by the solver", rows, "solver_energy")]
-    if share > ACCEPTED_SHARE:
+    if counted_share(results) > ACCEPTED_SHARE:
         warning = Text(
             "The solver made {} % of what was dissipated, more than {} %: shorter sub-steps or more solver "
             "iterations make it less.",

@@ -7,12 +7,17 @@ from support.sample_results import changed, hanging_chain
 
 from bridge_demolition_addon.model.results.arrays import Results
 from bridge_demolition_addon.model.results.energy import (
+    LARGE_SHARE,
+    SMALL_DROP_M,
+    counted_share,
     energy_summary,
     flies_on_solver_energy,
     is_known,
     made_share,
+    much_made_text,
     throws_of,
 )
+from bridge_demolition_addon.model.results.motion import MOVED_M
 
 
 def thrown(distance_m, **arrays):
@@ -26,6 +31,35 @@ def thrown(distance_m, **arrays):
 def test_share_is_what_was_made_over_what_was_dissipated():
     # 200 J in the last of five frames with 500 J each.
     assert made_share(hanging_chain()) == pytest.approx(200.0 / 2500.0)
+
+
+def with_work(made_j, dissipated_j):
+    """The chain, whose shards of 500 kg have 49.03 J for a fall of 1 cm, and the shares of such work in its frames."""
+    frames = np.array([np.nan, 0.0, 0.0, 0.0, 1.0])
+    made = np.outer(frames, (0.0, 1.0, 0.0, 0.0)) * made_j
+    results = changed(hanging_chain(), made_by_solver_j=made, dissipated_between_bodies_j=frames * dissipated_j)
+    return counted_share(results), made_share(results)
+
+
+def test_a_trifle_is_not_much_beside_the_weight_of_what_stands():
+    """2.4 J of 4 J that were dissipated are 60 %, and 4.9 % of what 500 kg lose as they fall by 1 cm."""
+    counted, of_dissipated = with_work(2.4, 4.0)
+    assert (counted, of_dissipated) == (pytest.approx(2.4 / (500.0 * 9.80665 * 0.01)), pytest.approx(0.6))
+    assert much_made_text(counted, of_dissipated) == ""
+    assert "60.0 %" in much_made_text(*with_work(2.6, 4.333))
+
+
+def test_much_beside_what_fell_is_said_whatever_the_weight():
+    counted, of_dissipated = with_work(60.0, 1000.0)
+    assert counted == of_dissipated == pytest.approx(0.06)
+    assert "6.0 %" in much_made_text(counted, of_dissipated)
+    assert much_made_text(*with_work(50.0, 1000.0)) == ""
+
+
+def test_what_counts_as_little_throws_one_of_a_hundred_shards_no_farther_than_debris_begins():
+    """v² / g of one that has all of it: 2 · 0.05 · 100 · 1 cm."""
+    energy_j = LARGE_SHARE * 100 * 9.80665 * SMALL_DROP_M
+    assert 2.0 * energy_j / 9.80665 <= MOVED_M * (1.0 + 1e-12)
 
 
 def test_summary_adds_up_by_cause_and_names_the_farthest_first():

@@ -137,7 +137,7 @@ def test_spans_are_told_apart():
 
 
 def test_forces_are_those_of_the_summary():
-    energy = {"made_by_solver": {"share_of_dissipated": 0.03}}
+    energy = {"made_by_solver": {"share_of_dissipated": 0.3, "share_that_counts": 0.03}}
     known = SUMMARY | {"largest_resultant": {"force_N": 5e6}, "energy": energy}
     outputs = outputs_of(thrown((0, 0, 6), (0, 0, 6)), summary=known)
     assert (outputs["largest_force_N"], outputs["made_by_solver_share"]) == (5e6, 0.03)
