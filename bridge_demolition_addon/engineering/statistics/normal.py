@@ -42,6 +42,9 @@ _TAIL = (
     ),
 )
 
+_BELOW_ALL = -38.5
+"""Value that the quantile of the smallest number above 0, -38.47, does not reach."""
+
 _FAR = -30.0
 """Value from which on downwards terms of an asymptotic series are enough."""
 
@@ -65,7 +68,7 @@ def normal_probability(value: float) -> float:
 
     By halving, until no number lies between.
     """
-    if value == -math.inf:
+    if value < _BELOW_ALL:
         return 0.0
     if value > 0.0:
         return 1.0 - normal_probability(-value)

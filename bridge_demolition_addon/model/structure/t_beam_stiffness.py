@@ -42,12 +42,12 @@ def fit_to_t_beams(matrices: FloatArray, rows: ConnectionRows, cut: CutBridge) -
     """Replace the stiffness (m, 6, 6) of faces, in the axes of their sections, by that of T-beams and the slab."""
     if cut.scenario.bridge is None or cut.scenario.bridge.girders is None:
         return
-    axes = section_axes(rows.connections.normals)
+    axes, joints = section_axes(rows.connections.normals), cut.scenario.joints
     for cast in _cast_t_beams(rows, cut):
         for row in np.flatnonzero(cast.of_faces(rows.connections.pairs)).tolist():
             turn = np.zeros((6, 6))
             turn[:3, :3] = turn[3:, 3:] = cast.on_road(row, axes[row])
-            moduli = given(cut.scenario.joints[int(rows.joints[row])].moduli)
+            moduli = given(joints[int(rows.joints[row])].moduli)
             in_world = product(product(turn, matrices[row]), turn.T)
             fitted = cast.stiffness(row, in_world, moduli)
             if fitted is not None:

@@ -37,6 +37,11 @@ def test_normal_probabilities_are_those_of_scipy():
     assert (normal_probability(-math.inf), normal_probability(math.inf)) == (0.0, 1.0)
 
 
+def test_below_the_quantile_of_the_smallest_number_there_is_no_probability():
+    assert normal_quantile(5e-324) > -38.5
+    assert normal_probability(-38.4) > 0.0 == normal_probability(-38.6)
+
+
 def test_logarithms_of_probabilities_are_those_of_scipy_far_into_the_tail():
     edges = math.sqrt(2.0) * np.array([0.46875, 4.0])
     beside = np.concatenate([np.nextafter(edges, 0.0), edges, np.nextafter(edges, 9.0)])
