@@ -77,9 +77,9 @@ int bda_cages_forces(const bda_cages *c, const bda_places *p, double *forces)
 }
 
 /* Write how the groups of a term are as a sub-step begins. */
-int bda_cages_begin(const bda_cages *c, const bda_places *p, const bda_term *t)
+int begin_cages(const bda_cages *c, const bda_places *p, const bda_term *t)
 {
-    if (t->kind != BARE_BARS || t->gaps != t->connections)
+    if (t->gaps != t->connections)
         return BDA_OUT_OF_RANGE;
     for (int64_t row = 0; row < t->gaps; row++) {
         int64_t group = t->which[row];

@@ -198,18 +198,16 @@ static void put_turned(const bda_places *p, int64_t body, const double *from, in
     put_vector(to, count, row, turned);
 }
 
-/* Write what chosen cracks (k,) are as a sub-step begins into the arrays of a term. */
-int bda_cracks_begin(const bda_cracks *c, const bda_places *p, int64_t chosen_count, const int64_t *chosen,
-                     const bda_term *t)
+/* Write how the cracks of a term are as a sub-step begins. */
+int begin_cracks(const bda_cracks *c, const bda_places *p, const bda_term *t)
 {
-    int64_t all = CORNERS * c->count, count = CORNERS * chosen_count;
-    if (!are_in_range(c, p->count) || t->gaps != count || t->connections != chosen_count)
+    int64_t all = CORNERS * c->count, count = t->gaps;
+    if (!are_in_range(c, p->count) || count != CORNERS * t->connections ||
+        !all_below(t->chosen, t->connections, c->count))
         return BDA_OUT_OF_RANGE;
     for (int64_t row = 0; row < count; row++) {
-        int64_t crack = chosen[row % chosen_count];
-        if (crack < 0 || crack >= c->count)
-            return BDA_OUT_OF_RANGE;
-        int64_t at = row / chosen_count * c->count + crack, one = c->first[at], other = c->second[at];
+        int64_t crack = t->chosen[row % t->connections];
+        int64_t at = row / t->connections * c->count + crack, one = c->first[at], other = c->second[at];
         double anchor[3], first_lever[3], second_lever[3], gap[3], arm[3];
         vector_at(c->first_anchors, all, at, anchor);
         turned_at(p->rotations, p->count, one, anchor, first_lever);
@@ -237,7 +235,7 @@ int bda_cracks_begin(const bda_cracks *c, const bda_places *p, int64_t chosen_co
         t->flows[row] = c->flows[at];
         t->pressed[row] = c->pressed[c->rows[crack]];
         t->grips[row] = c->grips[at];
-        t->of_gap[row] = row % chosen_count;
+        t->of_gap[row] = row % t->connections;
         t->which[row] = at;
         t->first[row] = one;
         t->second[row] = other;

@@ -41,8 +41,8 @@ typedef struct {
 BDA_API int bda_cracks_settle(const bda_cracks *cracks, const bda_places *places, uint8_t *holds);
 BDA_API int bda_cracks_grip(const bda_cracks *cracks, const bda_places *places);
 BDA_API int bda_cracks_state(const bda_cracks *cracks, const bda_places *places, double *states);
-BDA_API int bda_cracks_begin(const bda_cracks *cracks, const bda_places *places, int64_t count, const int64_t *chosen,
-                             const bda_term *term);
 BDA_API int bda_expect_cracks(const bda_term *term, const bda_places *places, const bda_expected_cracks *expected);
+
+int begin_cracks(const bda_cracks *cracks, const bda_places *places, const bda_term *term);
 
 #endif

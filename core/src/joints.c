@@ -64,7 +64,7 @@ static void lever_at(const double *rotations, int64_t bodies, int64_t body, cons
     turned_at(rotations, bodies, body, point, lever);
 }
 
-/* Write deformations (6, k) of chosen connections (k,). */
+/* Write deformations, of (6, m), of chosen connections (k,). */
 int bda_deformations(const bda_frames *f, const bda_places *p, int64_t count, const int64_t *chosen,
                      double *deformations)
 {
@@ -85,10 +85,10 @@ int bda_deformations(const bda_frames *f, const bda_places *p, int64_t count, co
                           lever_of_second[axis] - lever[axis];
         double about_y = dot3(one[0], other[2]), upright = 1.0 - about_y * about_y;
         for (int axis = 0; axis < 3; axis++)
-            deformations[axis * count + at] = dot3(one[axis], shift);
-        deformations[3 * count + at] = angle_of(-dot3(one[1], other[2]), dot3(one[2], other[2]));
-        deformations[4 * count + at] = angle_of(about_y, sqrt(upright > 0.0 ? upright : 0.0));
-        deformations[5 * count + at] = angle_of(-dot3(one[0], other[1]), dot3(one[0], other[0]));
+            deformations[axis * f->count + row] = dot3(one[axis], shift);
+        deformations[3 * f->count + row] = angle_of(-dot3(one[1], other[2]), dot3(one[2], other[2]));
+        deformations[4 * f->count + row] = angle_of(about_y, sqrt(upright > 0.0 ? upright : 0.0));
+        deformations[5 * f->count + row] = angle_of(-dot3(one[0], other[1]), dot3(one[0], other[0]));
     }
     return BDA_DONE;
 }
@@ -227,7 +227,7 @@ void mass_matrix(const double *masses, const double *inertias, const double *rot
     }
 }
 
-/* Write the energy (m,) in chosen connections (k,), of all with a stiffness (6, 6, m), with deformations (6, k), of which
+/* Write the energy (m,) in chosen connections (k,), of all with a stiffness (6, 6, m), with deformations (6, m), of which
  * offsets (6, m) count as none; 0 for the others. */
 int bda_stored(int64_t m, const double *stiffness, const double *offsets, int64_t count, const int64_t *chosen,
                const double *deformations, double *energies)
@@ -238,7 +238,7 @@ int bda_stored(int64_t m, const double *stiffness, const double *offsets, int64_
     for (int64_t at = 0; at < count; at++) {
         double own[6], amounts[6], energy = 0.0;
         for (int axis = 0; axis < 6; axis++)
-            own[axis] = deformations[axis * count + at] - offsets[axis * m + chosen[at]];
+            own[axis] = deformations[axis * m + chosen[at]] - offsets[axis * m + chosen[at]];
         stressed(stiffness + chosen[at], m, own, amounts);
         for (int axis = 0; axis < 6; axis++)
             energy += 0.5 * amounts[axis] * own[axis];

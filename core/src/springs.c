@@ -61,9 +61,9 @@ static int are_springs(const bda_springs *s)
 }
 
 /* Write how the springs of a term are as a sub-step begins: gaps, arms, and what they are pressed by. */
-int bda_springs_begin(const bda_springs *s, const bda_places *p, const bda_term *t)
+int begin_springs(const bda_springs *s, const bda_places *p, const bda_term *t)
 {
-    if (!are_springs(s) || t->kind != SPRINGS || !all_below(t->which, t->gaps, s->at->count))
+    if (!are_springs(s) || !all_below(t->which, t->gaps, s->at->count))
         return BDA_OUT_OF_RANGE;
     for (int64_t row = 0; row < t->gaps; row++) {
         int64_t spring = t->which[row];

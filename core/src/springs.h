@@ -51,7 +51,6 @@ typedef struct {
     uint8_t *gone;                           /* (c,), whether its bodies have left each other */
 } bda_pads;
 
-BDA_API int bda_springs_begin(const bda_springs *springs, const bda_places *places, const bda_term *term);
 BDA_API int bda_springs_energy(const bda_springs *springs, const bda_places *places, double *energies);
 BDA_API int bda_soil_settle(const bda_springs *springs, const bda_places *places);
 BDA_API int bda_pads_settle(const bda_springs *springs, const bda_pads *pads, const bda_places *places);
@@ -60,6 +59,8 @@ BDA_API int bda_pads_failed(const bda_springs *springs, const bda_pads *pads, co
 BDA_API int bda_spring_gaps(const bda_spring_places *springs, const bda_places *places, double *gaps, double *arms_above,
                             double *arms_below);
 BDA_API int bda_springs_resisted(const bda_spring_law *law, const double *gaps, double *forces, double *tangents);
+
+int begin_springs(const bda_springs *springs, const bda_places *places, const bda_term *term);
 
 /* Force of a spring on what lies above, and by how much it falls with the gap. */
 static inline void force_of_spring(const bda_spring_law *s, int64_t row, const double gap[3], double force[3],

@@ -5,7 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cages.h"
+#include "cracks.h"
 #include "guesses.h"
+#include "springs.h"
 
 enum { MOST_ROOMS = 96, BAD_BEGINNING = 16 };
 
@@ -325,7 +328,8 @@ static void add_on_bodies(const bda_substep *s, double *sums)
 /* Deformation of a connection that acts, beyond its shape. */
 static double strain_of(const bda_substep *s, int axis, int64_t at)
 {
-    return s->deformations[axis * s->acting_count + at] - s->offsets[axis * s->frames->count + s->acting[at]];
+    int64_t place = axis * s->frames->count + s->acting[at];
+    return s->deformations[place] - s->offsets[place];
 }
 
 /* Find rates and impulses of connections as if no body was slowed down, and the sums of these. */
@@ -498,16 +502,29 @@ static int are_found(bda_substep *s)
            are_finite(s->of_bodies, 6, s->places->count, BDA_FORCES, &s->wrong);
 }
 
+/* Write how a term is as a sub-step begins. */
+int bda_begin_term(const bda_term *t, const bda_places *places)
+{
+    if (!t->law || t->kind < CRACKS || t->kind > BARE_BARS)
+        return BDA_OUT_OF_RANGE;
+    if (t->kind == CRACKS)
+        return begin_cracks(t->law, places, t);
+    return t->kind == SPRINGS ? begin_springs(t->law, places, t) : begin_cages(t->law, places, t);
+}
+
 /* Find what connections do in a sub-step. */
 int bda_solve_substep(bda_substep *s)
 {
     pool rooms = {{0}, 0, 0};
     work w = {.s = s};
+    int answer = bda_deformations(s->frames, s->places, s->acting_count, s->acting, s->deformations);
     s->guesses = s->factorings = 0;
-    if (!is_in_range(s))
+    for (int64_t number = 0; number < s->term_count && answer == BDA_DONE; number++)
+        answer = bda_begin_term(s->terms[number], s->places);
+    if (answer != BDA_DONE || !is_in_range(s))
         return BDA_OUT_OF_RANGE;
     prepare(&w, &rooms);
-    int answer = rooms.is_short ? BDA_NO_MEMORY : are_given(&w) ? BDA_DONE : BDA_NOT_FINITE;
+    answer = rooms.is_short ? BDA_NO_MEMORY : are_given(&w) ? BDA_DONE : BDA_NOT_FINITE;
     if (answer == BDA_DONE) {
         find_stale(s);
         answer = refresh(&w);

@@ -34,20 +34,22 @@ typedef struct {
     const int64_t *part_of_body, *part_of_connection, *within_part;
     uint8_t *stale;             /* (p + 1,), whose rows and equations are to be made again; the last is of none */
     const uint8_t *awake;       /* (p + 1,) */
-    /* Connections (k,) that act, in ascending order, with deformations (6, k), of which offsets (6, m) are without load. */
+    /* Connections (k,) that act, in ascending order, and deformations (6, m), of which offsets are without load. */
     int64_t acting_count;
     const int64_t *acting;
-    const double *deformations, *offsets;
+    const double *offsets;
     int64_t term_count;
     bda_term *const *terms;     /* (t,) */
     int64_t most_guesses;
     int64_t from_rest;          /* whether guesses begin with no motion, and not with that of the last sub-step */
-    /* What comes of it: rates (6, k), impulses (6, k) on both bodies, their sums (6, n), velocities (6, n) at the end. */
-    double *rates, *of_first, *of_second, *of_bodies, *ends;
+    /* What comes of it: deformations (6, m) of those that act, as it begins, rates (6, k), impulses (6, k) on both
+     * bodies, their sums (6, n), velocities (6, n) at the end. */
+    double *deformations, *rates, *of_first, *of_second, *of_bodies, *ends;
     int64_t guesses, factorings; /* how many there were */
     bda_not_finite wrong;        /* what was not finite, where the answer is that something was not */
 } bda_substep;
 
+BDA_API int bda_begin_term(const bda_term *term, const bda_places *places);
 BDA_API int bda_solve_substep(bda_substep *substep);
 
 #endif

@@ -301,8 +301,8 @@ static void pull_of_gap(const guessed_term *g, int64_t row, const double *veloci
         for (int axis = 0; axis < 3; axis++)
             moved[axis] = substep_s * rate[axis];
         linear_at(g, row, moved, force);
-        if (t->solved_up)
-            t->solved_up[row] = -force[2];
+        if (t->solved_pressed)
+            t->solved_pressed[t->which[row]] = larger(-force[2], 0.0);
         for (int axis = 0; axis < 3; axis++)
             pull[axis] = substep_s * force[axis];
         return;

@@ -16,6 +16,8 @@ enum { CORNERS = 4 };
  * springs in the order of their connections, from the body below to the one above; bare bars have one each. */
 typedef struct {
     int64_t kind, connections, gaps, all_gaps;
+    const void *law;                        /* bda_cracks, bda_springs or bda_cages; none where nobody begins it */
+    const int64_t *chosen;                  /* (c,), which of the cracks of the law */
     const int64_t *numbers;                 /* (c,), among all that connects bodies */
     int64_t *of_gap;                  /* (q,), connection of each gap */
     int64_t *which;                   /* (q,), number of each gap among all gaps (p,) of its kind */
@@ -35,7 +37,7 @@ typedef struct {
     const double *vertical, *sideways, *capacity, *friction;
     double *pressed_by;
     const uint8_t *pulls, *above_first; /* (q,); (c,) */
-    double *solved_up;                  /* (q,), N, upward forces as they are solved; NULL where nobody asks */
+    double *solved_pressed;             /* (p,), N, pressing forces as they are solved; NULL where nobody asks */
     /* Bare bars. */
     double *lengths;
     const double *bared;

@@ -53,7 +53,7 @@ def borne(bed: Footings, settled_m: float, turn_rad: float = 0.0) -> np.ndarray:
     positions = np.array([[0.0, 0.0, -settled_m], [0.0, 0.0, 0.0]]).T
     bed.update_plastic_state(positions, rotation)
     springs = bed.term(np.zeros(1, int))
-    bed.begin(springs, positions, rotation)
+    springs.begin(positions, rotation)
     forces = np.zeros((3, SIDES * SIDES))
     call("bda_try_term", springs, np.zeros_like(forces), forces)
     moments = np.cross(springs.arrays["second_arms"], forces, axis=0)

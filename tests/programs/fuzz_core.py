@@ -373,7 +373,7 @@ class Cases:
             ("stale", np.ones(parts + 1, bool), parts + 1),
             ("awake", rng.integers(0, 2, parts + 1).astype(bool), parts + 1),
             ("acting", self.odd(acting), len(acting)),
-            ("deformations", self.numbers(6, len(acting)), 6 * len(acting)),
+            ("deformations", np.zeros((6, count)), 6 * count),
             ("offsets", self.numbers(6, count), 6 * count),
             *((name, np.zeros((6, len(acting))), 6 * len(acting)) for name in ("rates", "of_first", "of_second")),
             *((name, np.zeros((6, bodies)), 6 * bodies) for name in ("of_bodies", "ends")),

@@ -18,7 +18,7 @@ def forces_and_tangents(term, moved):
 def term_in_substep(law, chosen, *places):
     """Return what some of a law (c,) do as a sub-step begins with bodies in certain places."""
     term = law.term(chosen)
-    law.begin(term, *places)
+    term.begin(*places)
     return term
 
 

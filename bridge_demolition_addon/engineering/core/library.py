@@ -15,7 +15,7 @@ from typing import Any
 
 from ...errors import CoreError
 
-VERSION = 7
+VERSION = 8
 """`BDA_CORE_VERSION` in core/src/core.h."""
 
 FILE = "bda_core" + {"win32": ".dll", "darwin": ".dylib"}.get(sys.platform, ".so")

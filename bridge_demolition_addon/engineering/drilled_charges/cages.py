@@ -214,7 +214,7 @@ class Cages:
         return np.maximum(-self._groups.stays_m[chosen], 0.0)
 
     def term(self, chosen: IntArray) -> Term:
-        """Return what some groups (k,) do, as long as there are the same; `begin` comes before each sub-step."""
+        """Return what some groups (k,) do, as long as there are the same."""
         groups, count = self._groups, len(chosen)
         law: dict[str, FloatArray | BoolArray] = {
             "yields": (groups.counts * yield_force_n(groups.diameters_m, groups.yields_pa))[chosen],
@@ -236,9 +236,6 @@ class Cages:
             (np.zeros((3, count)), np.zeros((3, count))),
             np.zeros((3, count)),
             law,
+            groups.core,
             held_sideways=int(self._held_sideways),
         )
-
-    def begin(self, term: Term, positions_m: FloatArray, rotations: FloatArray) -> None:
-        """Have a term begin a sub-step with bodies at these positions."""
-        call("bda_cages_begin", self._groups.core, Places.of(positions_m, rotations), term)

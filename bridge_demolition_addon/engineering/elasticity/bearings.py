@@ -152,7 +152,7 @@ class Bearings(SpringsOfConnections):
             np.zeros(len(of)),
         )
         super().__init__(springs.rows, positions, law)
-        self._pressed_n = np.full(len(of), np.nan)  # pressing forces as they were solved last
+        self._pressed_n = np.full(len(of), np.nan)
         self._pads: CorePads | None = None
 
     def __getstate__(self) -> dict[str, object]:
@@ -237,11 +237,10 @@ class Bearings(SpringsOfConnections):
         middles = turned(rotations[..., self._above], self._middles)[:, self._positions.of]
         return loads_of_springs(self._positions, forces, arms - middles, arms - middles)[0]
 
-    def _solved(self, which: IntArray, forces_n: FloatArray) -> None:
-        self._pressed_n[which] = np.maximum(forces_n, 0.0)
-
     def _pads_in_core(self) -> CorePads:
         if self._pads is None:
+            pressed_n = self._pressed_n
+            assert pressed_n is not None
             springs, count, bearings = self._springs, len(self.rows), int(self._springs.bearings.max(initial=-1)) + 1
             self._pads = CorePads(
                 bearings=bearings,
@@ -256,7 +255,7 @@ class Bearings(SpringsOfConnections):
                 travel=(springs.travel_m, count),
                 breaking=(springs.breaking_n, count),
                 built_turns=(self._built_turns, 9 * count),
-                pressed=(self._pressed_n, len(self._pressed_n)),
+                pressed=(pressed_n, len(pressed_n)),
                 forces=(np.zeros((3, count)), 3 * count),
                 whole=(np.zeros((3, bearings)), 3 * bearings),
                 gone=(np.zeros(count, bool), count),

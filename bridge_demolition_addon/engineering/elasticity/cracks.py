@@ -186,13 +186,8 @@ class Cracks:
         return used
 
     def term(self, chosen: IntArray) -> Term:
-        """Return what some cracks (c,) do, as long as there are the same; `begin` comes before each sub-step."""
-        return Term.of_cracks(self.rows[chosen], chosen, self.remembered, DOWEL_SHARE, SHEARED)
-
-    def begin(self, term: Term, positions_m: FloatArray, rotations: FloatArray) -> None:
-        """Have a term begin a sub-step with bodies at these positions."""
-        places = Places.of(positions_m, rotations)
-        call("bda_cracks_begin", self._in_core(), places, len(term.chosen), term.chosen, term)
+        """Return what some cracks (c,) do, as long as there are the same."""
+        return Term.of_cracks(self.rows[chosen], chosen, self.remembered, DOWEL_SHARE, SHEARED, self._in_core())
 
     def _in_core(self) -> CoreCracks:
         """Return what the core works on, which changes what is here."""

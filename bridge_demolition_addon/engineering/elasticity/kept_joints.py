@@ -6,33 +6,14 @@ All arrays have their components first.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
-from ..arrays import BoolArray, FloatArray, IntArray, same
+from ..arrays import BoolArray, FloatArray, IntArray
 from ..core.calls import call
 from ..core.structs import Doubles
 from .joint_rows import JointFrames
 from .substep import Frames, Places, deformations
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class _Deformed:
-    """Deformations (6, r) of connections (r,), in order, and where their bodies were then."""
-
-    positions_m: FloatArray
-    rotations: FloatArray
-    numbers: IntArray
-    deformations: FloatArray
-
-    def has(self, numbers: IntArray, positions_m: FloatArray, rotations: FloatArray) -> bool:
-        """Whether these connections were among them, with bodies at these positions."""
-        return (
-            same(positions_m, self.positions_m)
-            and same(rotations, self.rotations)
-            and (same(numbers, self.numbers) or bool(np.isin(numbers, self.numbers).all()))
-        )
 
 
 class KeptJoints:
@@ -50,26 +31,12 @@ class KeptJoints:
         self.core_frames = Frames.of(frames, bodies)
         self.stiffness = Doubles.checked("stiffness", np.ascontiguousarray(stiffness), 36 * len(frames))
         self.offsets = Doubles.checked("offsets", np.ascontiguousarray(offsets), 6 * len(frames))
-        self._deformed: _Deformed | None = None
-
-    def deformations(self, numbers: IntArray, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
-        """Return deformations (6, k) of some connections (k,), in order, with bodies in certain places.
-
-        They are worked out again only where bodies have moved.
-        """
-        kept = self._deformed
-        if kept is None or not kept.has(numbers, positions_m, rotations):
-            found = deformations(self.core_frames, Places.of(positions_m, rotations), numbers)
-            self._deformed = kept = _Deformed(positions_m, rotations, numbers, found)
-        if same(numbers, kept.numbers):
-            return kept.deformations
-        return kept.deformations[:, np.searchsorted(kept.numbers, numbers)]
 
     def stored_j(self, numbers: IntArray, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
         """Return the energy (m,) in some connections (k,), in order, and none in the others."""
-        deformed, count = self.deformations(numbers, positions_m, rotations), self.core_frames.count
+        count = self.core_frames.count
+        deformed = deformations(self.core_frames, Places.of(positions_m, rotations), numbers)
         stored = np.empty(count)
-        deformed = Doubles.checked("deformations", np.ascontiguousarray(deformed), 6 * len(numbers))
         call("bda_stored", count, self.stiffness, self.offsets, len(numbers), numbers, deformed, stored)
         return stored
 

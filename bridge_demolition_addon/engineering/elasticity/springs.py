@@ -12,7 +12,7 @@ from __future__ import annotations
 import ctypes
 import math
 from dataclasses import dataclass, fields
-from functools import cached_property, partial
+from functools import cached_property
 
 import numpy as np
 
@@ -201,6 +201,7 @@ class SpringsOfConnections:
             raise ValueError(f"stiffness sideways has shape {law.sideways_n_m.shape}: expected (2, {count})")
         self._free = np.zeros((3, count))  # gaps at which springs resist nothing
         self.touching, self.remembered = np.ones(len(rows)), np.full((12, count), np.nan)
+        self._pressed_n: FloatArray | None = None  # (p,) pressing forces as they were solved last, where they count
         self._springs_in_core: CoreSprings | None = None
 
     def __getstate__(self) -> dict[str, object]:
@@ -208,10 +209,10 @@ class SpringsOfConnections:
         return self.__dict__ | {"_springs_in_core": None}
 
     def term(self, chosen: IntArray) -> Term:
-        """Return what some connections (k,) do, as long as these are the same; `begin` comes before each sub-step."""
+        """Return what some connections (k,) do, as long as these are the same."""
         positions, which = self._positions.only(chosen)
         law, count = self._law.only(which), len(which)
-        return Term.of(
+        term = Term.of(
             SPRINGS,
             self.rows[chosen],
             chosen,
@@ -230,21 +231,17 @@ class SpringsOfConnections:
                 "pulls": law.pulls,
                 "above_first": positions.above_first,
             },
-            partial(self._solved, which),
+            self._in_core(),
         )
-
-    def begin(self, term: Term, positions_m: FloatArray, rotations: FloatArray) -> None:
-        """Have a term begin a sub-step with bodies at these positions."""
-        call("bda_springs_begin", self._in_core(), Places.of(positions_m, rotations), term)
+        if self._pressed_n is not None:
+            term.point("solved_pressed", self._pressed_n, len(self._positions.of))
+        return term
 
     def stored_j(self, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
         """Return the energy (c,) that the springs would give back."""
         stored = np.empty(len(self.rows))
         call("bda_springs_energy", self._in_core(), Places.of(positions_m, rotations), stored)
         return stored
-
-    def _solved(self, which: IntArray, forces_n: FloatArray) -> None:
-        """Take over the upward forces (q,) of some springs (q,) in a sub-step."""
 
     def _in_core(self) -> CoreSprings:
         if self._springs_in_core is None:

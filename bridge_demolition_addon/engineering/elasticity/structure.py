@@ -17,14 +17,14 @@ from typing import Protocol
 
 import numpy as np
 
-from ..arrays import BoolArray, FloatArray, IntArray
+from ..arrays import BoolArray, FloatArray, IntArray, same
 from .bearings import Bearings
 from .crack_state import CrackState
 from .cracks import Cracks
 from .equations import SLACK, BlockSystem, RigidBodies, connected_parts, first_frequency, stiffness_blocks, without
 from .joint_rows import JointFrames, joint_positions
 from .kept_joints import KeptJoints
-from .substep import Places, Substep, Term
+from .substep import CRACKS, Places, Substep, Term
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -45,7 +45,6 @@ class ElasticStep:
     """
 
     acting: IntArray  # (k,), which connections
-    deformations: FloatArray  # (6, k), before the sub-step, m and rad, as Bullet measures them
     rates: FloatArray  # (6, k), how fast they shrink in it, m/s and rad/s
     of_first: FloatArray  # (6, k), impulses
     of_second: FloatArray
@@ -72,10 +71,7 @@ class SpringLaw(Protocol):
         """What the core knows of the last sub-step (12, p); another array where there are others."""
 
     def term(self, chosen: IntArray) -> Term:
-        """Return what some of them (c,) do, as long as there are the same; `begin` comes before each sub-step."""
-
-    def begin(self, term: Term, positions_m: FloatArray, rotations: FloatArray) -> None:
-        """Have a term begin a sub-step with bodies at these positions."""
+        """Return what some of them (c,) do, as long as there are the same."""
 
 
 class StoringLaw(SpringLaw, Protocol):
@@ -158,18 +154,24 @@ class ElasticStructure:
         self._joints = KeptJoints(frames, self._count, stiffness, positions.deformations())
         self._solved = Substep()
         self._solved.from_rest = int(from_rest)
+        self.deformations = np.zeros((6, len(frames)))
         for name, array, size in (
             ("masses", np.ascontiguousarray(bodies.masses_kg, float), self._count),
             ("inertias", np.ascontiguousarray(bodies.inertias_kg_m2), 9 * self._count),
             ("stiffness", self._joints.stiffness, 36 * len(frames)),
             ("offsets", self._joints.offsets, 6 * len(frames)),
             ("rows", np.zeros((len(frames), 36)), 36 * len(frames)),
+            ("deformations", self.deformations, 6 * len(frames)),
         ):
             self._solved.point(name, array, size)
         self._intact = np.ones(len(frames), bool)
         self._substep_s = 0.0
         self._cracks, self._has_broken = cracks, False
         self._terms: dict[int, Term] = {}  # of laws, as they were last
+        self._acting_terms: list[Term] = []
+        self._remembered: list[tuple[Cracks | SpringLaw, FloatArray]] = []
+        self._awake: BoolArray = np.zeros(0, bool)
+        self._step: ElasticStep | None = None  # what acts, as long as it is the same
         self._parts: list[_ConnectedComponent] = []
         self._part_of_body = np.full(self._count, -1)
         self._partition()
@@ -216,51 +218,68 @@ class ElasticStructure:
         if start.positions_m.shape[1] != self._count:
             raise ValueError(f"there are positions of {start.positions_m.shape[1]} bodies: expected {self._count}")
         self._follow_breaks(intact)
+        self.begin_substep(substep_s)
+        step = self.acting_with(start.asleep)
+        solved = self._solved
+        solved.point("velocities", np.ascontiguousarray(start.velocities), 6 * self._count)
+        solved.solve(self._joints.core_frames, Places.of(start.positions_m, start.rotations), self._acting_terms)
+        return step
+
+    def begin_substep(self, substep_s: float) -> None:
+        """Take over the length of a sub-step."""
         if substep_s != self._substep_s:
-            self._substep_s = substep_s
+            self._substep_s = self._solved.substep_s = substep_s
             self._stale[:-1] = True
-        awake = self._awake_parts(start)
+        self._solved.point("damping_s", self._damping_s, len(self._frames))
+
+    def acting_with(self, asleep: BoolArray) -> ElasticStep:
+        """Return the effects of what acts while some bodies (n,) are asleep, which each sub-step writes again.
+
+        They are the same as long as nothing else acts.
+        """
+        awake = self._awake_parts(asleep)
+        if (
+            self._step is None
+            or not same(awake, self._awake)
+            or not all(law.remembered is remembered for law, remembered in self._remembered)
+        ):
+            self._awake = awake
+            self._step = self._choose(awake)
+        return self._step
+
+    def _choose(self, awake: BoolArray) -> ElasticStep:
+        """Choose what acts while some parts (p + 1,) are awake."""
         are_awake = awake[self.part_of_connection]
         acts = self._intact & are_awake[: len(self._frames)]
         numbers = np.flatnonzero(acts)
-        deformed = np.ascontiguousarray(self._joints.deformations(numbers, start.positions_m, start.rotations))
-        cracks = self._acting_terms(self._cracks, are_awake, start)
-        springs = [self._acting_terms(law, acts, start) for law in self._springs]
-        bare_bars = self._acting_terms(self._bare_bars, are_awake, start)
-        terms = [term for term in (cracks, *springs, bare_bars) if term is not None]
+        laws = (self._cracks, are_awake), *((law, acts) for law in self._springs), (self._bare_bars, are_awake)
+        terms = [self._acting_term(law, of_law) for law, of_law in laws if law is not None]
+        self._remembered = [(law, law.remembered) for law, _ in laws if law is not None]
+        self._acting_terms = [term for term in terms if term is not None]
+        cracks = next((term for term in self._acting_terms if term.kind == CRACKS), None)
         acting, bodies = len(numbers), self._count
-        results = {
-            "rates": np.empty((6, acting)),
-            "of_first": np.empty((6, acting)),
-            "of_second": np.empty((6, acting)),
-            "of_bodies": np.empty((6, bodies)),
-            "ends": np.empty((6, bodies)),
-        }
-        solved = self._solved
-        solved.substep_s, solved.acting_count = substep_s, acting
-        solved.point("equations", self._equations_of(awake), len(self._parts))
-        solved.point("awake", awake, len(awake))
-        solved.point("velocities", np.ascontiguousarray(start.velocities), 6 * bodies)
-        solved.point("damping_s", self._damping_s, len(self._frames))
-        solved.point("acting", numbers, acting)
-        solved.point("deformations", deformed, 6 * acting)
-        for name, array in results.items():
-            solved.point(name, array, array.size)
-        solved.solve(self._joints.core_frames, Places.of(start.positions_m, start.rotations), terms)
         of_cracks = cracks.impulses if cracks is not None else (np.zeros((6, 0)), np.zeros((6, 0)))
-        return ElasticStep(
+        step = ElasticStep(
             acting=numbers,
-            deformations=deformed,
-            rates=results["rates"],
-            of_first=results["of_first"],
-            of_second=results["of_second"],
+            rates=np.empty((6, acting)),
+            of_first=np.empty((6, acting)),
+            of_second=np.empty((6, acting)),
             cracks=np.zeros(0, int) if cracks is None else cracks.rows,
             of_cracks_on_first=of_cracks[0],
             of_cracks_on_second=of_cracks[1],
-            of_bodies=results["of_bodies"],
-            velocities=results["ends"],
+            of_bodies=np.empty((6, bodies)),
+            velocities=np.empty((6, bodies)),
             crack_term=cracks,
         )
+        solved = self._solved
+        solved.acting_count = acting
+        solved.point("equations", self._equations_of(awake), len(self._parts))
+        solved.point("awake", awake, len(awake))
+        solved.point("acting", numbers, acting)
+        for name in ("rates", "of_first", "of_second", "of_bodies"):
+            solved.point(name, getattr(step, name), getattr(step, name).size)
+        solved.point("ends", step.velocities, 6 * bodies)
+        return step
 
     def _equations_of(self, awake: BoolArray) -> IntArray:
         """Return where the core has the equations of each part (p,) that is awake, and 0 for the others."""
@@ -345,6 +364,7 @@ class ElasticStructure:
             within[bodies] = -1
         # One more, the last, for what belongs to no part: -1.
         self._stale = np.append(np.ones(len(self._parts), bool), False)
+        self._step = None
         self._addresses = np.zeros(len(self._parts), int)
         self._has_broken = False
         within_part = np.full(count, -1)
@@ -365,29 +385,26 @@ class ElasticStructure:
     def _follow_breaks(self, intact: BoolArray) -> None:
         broken = self._intact & ~intact
         if broken.any():
-            self._intact = intact.copy()
+            self._intact, self._step = intact.copy(), None
             self._stale[self.part_of_connection[np.flatnonzero(broken)]] = True
             self._stale[-1] = False
             self._has_broken = True
 
-    def _awake_parts(self, start: StepInput) -> BoolArray:
+    def _awake_parts(self, asleep: BoolArray) -> BoolArray:
         """Whether a body of each part (p + 1,) is awake."""
         mine = self._part_of_body >= 0
         awake = np.zeros(len(self._stale), bool)
-        awake[self._part_of_body[mine & ~start.asleep]] = True
+        awake[self._part_of_body[mine & ~asleep]] = True
         return awake
 
-    def _acting_terms(self, law: Cracks | SpringLaw | None, acts: BoolArray, start: StepInput) -> Term | None:
+    def _acting_term(self, law: Cracks | SpringLaw, acts: BoolArray) -> Term | None:
         """Cracks that reinforcement holds, or springs, of connections that act (m,); None where there is none."""
-        if law is None:
-            return None
         chosen = np.flatnonzero(acts[law.rows])
         if not len(chosen):
             return None
         term = self._terms.get(id(law))
         if term is None or not term.is_of(chosen, law.remembered):
             self._terms[id(law)] = term = law.term(chosen)
-        law.begin(term, start.positions_m, start.rotations)
         return term
 
 

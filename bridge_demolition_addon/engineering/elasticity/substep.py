@@ -6,7 +6,7 @@ All arrays have their components first.
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import ClassVar
 
 import numpy as np
@@ -95,7 +95,7 @@ class Term(Struct):
     ----------
     rows : (c,) int
         Their numbers among all that connects bodies.
-    chosen : (c,) int
+    chosen_of_law : (c,) int
         Their numbers among those of their law.
     arrays : dict
         The arrays, by the names of their fields.
@@ -106,6 +106,8 @@ class Term(Struct):
         ("connections", Count),
         ("gaps", Count),
         ("all_gaps", Count),
+        ("law", ctypes.c_void_p),
+        ("chosen", Indices),
         ("numbers", Indices),
         ("of_gap", Indices),
         ("which", Indices),
@@ -137,7 +139,7 @@ class Term(Struct):
         ("pressed_by", Doubles),
         ("pulls", Flags),
         ("above_first", Flags),
-        ("solved_up", WrittenDoubles),
+        ("solved_pressed", WrittenDoubles),
         ("lengths", Doubles),
         ("bared", Doubles),
         ("stays", Doubles),
@@ -148,7 +150,7 @@ class Term(Struct):
         ("held_sideways", Count),
     )
 
-    _OF_CONNECTIONS = ("numbers", "above_first")
+    _OF_CONNECTIONS = ("chosen", "numbers", "above_first")
 
     @classmethod
     def of(
@@ -163,18 +165,21 @@ class Term(Struct):
         arms_m: tuple[FloatArray, FloatArray],
         widths_m: FloatArray,
         law: dict[str, FloatArray | BoolArray],
-        solved: Callable[[FloatArray], None] | None = None,
+        in_core: Struct | None = None,
         **settings: float,
     ) -> Term:
         """Return a term with q gaps, which are `which` (q,) of all that are `remembered` (12, p).
 
         Gaps are between bodies `ends`, two (q,), at arms, two (3, q), of connections `of_gap` (q,). The arrays of the
-        law are of gaps, with components first. `solved` gets the upward forces (q,) on second bodies.
+        law are of gaps, with components first. `in_core` is what the core knows of all of the law, by which the term
+        begins.
         """
         connections, gaps = len(rows), len(of_gap)
         made = cls(kind=kind, connections=connections, gaps=gaps, all_gaps=remembered.shape[-1], **settings)
-        made.rows, made.chosen, made.solved = rows, chosen, solved
+        made.rows, made.chosen_of_law, made.in_core = rows, chosen, in_core
+        made.law = None if in_core is None else ctypes.addressof(in_core)
         made.arrays = {
+            "chosen": chosen,
             "numbers": rows,
             "of_gap": of_gap,
             "which": which,
@@ -186,8 +191,6 @@ class Term(Struct):
             "tangents": np.zeros((3, 3, gaps)),
             **law,
         }
-        if solved is not None:
-            made.arrays["solved_up"] = np.zeros(gaps)
         for name, array in made.arrays.items():
             size = connections if name in cls._OF_CONNECTIONS else gaps * (array.size // max(array.shape[-1], 1))
             made.point(name, np.ascontiguousarray(array), size)
@@ -199,7 +202,15 @@ class Term(Struct):
         return made
 
     @classmethod
-    def of_cracks(cls, rows: IntArray, chosen: IntArray, remembered: FloatArray, dowel: float, sheared: float) -> Term:
+    def of_cracks(
+        cls,
+        rows: IntArray,
+        chosen: IntArray,
+        remembered: FloatArray,
+        dowel: float,
+        sheared: float,
+        in_core: Struct | None = None,
+    ) -> Term:
         """Return a term of cracks (c,) whose arrays are not filled yet."""
         gaps = 4 * len(rows)
         whole = {name: np.empty(gaps, int) for name in ("which", "first", "second")}
@@ -219,26 +230,26 @@ class Term(Struct):
             (np.empty((3, gaps)), np.empty((3, gaps))),
             np.empty((3, gaps)),
             law,
+            in_core,
             dowel=dowel,
             sheared=sheared,
         )
 
     def __init__(self, **values: float):
         super().__init__(**values)
-        self.rows = self.chosen = np.zeros(0, int)
+        self.rows = self.chosen_of_law = np.zeros(0, int)
+        self.in_core: Struct | None = None
         self.remembered_in = np.zeros((12, 0))
         self.arrays: dict[str, np.ndarray] = {}
         self.impulses = np.zeros((6, 0)), np.zeros((6, 0))  # (6, c), on first and on second bodies
-        self.solved: Callable[[FloatArray], None] | None = None
 
     def is_of(self, chosen: IntArray, remembered: FloatArray) -> bool:
         """Whether these are its connections, and where their law remembers the last sub-step: of the same as before."""
-        return self.remembered_in is remembered and same(self.chosen, chosen)
+        return self.remembered_in is remembered and same(self.chosen_of_law, chosen)
 
-    def tell(self) -> None:
-        """Hand over the forces that are solved."""
-        if self.solved is not None:
-            self.solved(self.arrays["solved_up"])
+    def begin(self, positions_m: FloatArray, rotations: FloatArray) -> None:
+        """Begin a sub-step with bodies at these positions, as one that is solved does by itself."""
+        call("bda_begin_term", self, Places.of(positions_m, rotations))
 
 
 class Substep(Struct):
@@ -268,11 +279,12 @@ class Substep(Struct):
         ("awake", Flags),
         ("acting_count", Count),
         ("acting", Indices),
-        *((name, Doubles) for name in ("deformations", "offsets")),
+        ("offsets", Doubles),
         ("term_count", Count),
         ("terms", ctypes.c_void_p),
         ("most_guesses", Count),
         ("from_rest", Count),
+        ("deformations", WrittenDoubles),
         ("rates", WrittenDoubles),
         ("of_first", WrittenDoubles),
         ("of_second", WrittenDoubles),
@@ -302,12 +314,10 @@ class Substep(Struct):
         self.frames, self.places = ctypes.addressof(frames), ctypes.addressof(places)
         self.term_count, self.terms = len(terms), ctypes.addressof(addresses)
         call("bda_solve_substep", self)
-        for term in terms:
-            term.tell()
 
 
 def deformations(frames: Frames, places: Places, chosen: IntArray) -> FloatArray:
-    """Return deformations (6, k) of chosen connections (k,), m and rad."""
-    found = np.empty((6, len(chosen)))
+    """Return deformations (6, m), m and rad, of chosen connections (k,), and 0 for the others."""
+    found = np.zeros((6, frames.count))
     call("bda_deformations", frames, places, chosen.size, chosen, found)
     return found

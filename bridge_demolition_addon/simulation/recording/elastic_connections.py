@@ -279,7 +279,8 @@ class ElasticConnections:
         """Put the predicted sub-step into Bullet."""
         motion, step = self.motion, self._coming
         self._reader.push(motion, step.of_bodies, self._substep_s)
-        self._rows.expect(step.acting, step.deformations - self._substep_s * step.rates)
+        coming = given(self._structure).deformations[:, step.acting] - self._substep_s * step.rates
+        self._rows.expect(step.acting, coming)
         self._expect_cracks(motion, step)
         given(self._structure).end_substep()
 
