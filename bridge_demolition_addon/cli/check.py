@@ -155,7 +155,7 @@ def scenario_facts(scenario: Scenario, *, stand: bool = False, progress: Progres
     if is_elastic:
         yield from _section("At rest", rest_facts(scenario, resting))
         runs = convergence_facts(scenario, len(model.member_of_shard)) if resting.model is model else ()
-        yield from _section("Fineness", (*accuracy_facts(scenario, resting.model), *runs))
+        yield from _section("Fineness", (*accuracy_facts(as_elastic, resting), *runs))
     if model.steel:
         of_steel = *steel_facts(scenario, model, resting.rest), *deck_facts(scenario, model, resting.rest)
         yield from _section("Steelwork", of_steel)

@@ -20,8 +20,8 @@ from ...texts import Text
 from ..actions import Fact
 from ..scenario import Scenario
 from ..schema import LARGEST_INTEGER, given
-from .cracking import cracked_by_weight
-from .equilibrium import loads_of, model_at_rest, overloaded
+from .cracking import RestingModel, cracked_by_weight
+from .equilibrium import deflection_m, loads_of, model_at_rest, overloaded
 from .model import Model, build_model
 from .model_bearings import BearingForce
 
@@ -32,6 +32,15 @@ ONE_CUT = Text(
 """What is said beside forces of bearings that may carry an axis together."""
 
 LEAST_CUTS, MOST_CUTS = 2, 100
+
+MOST_SHARDS_CUT_AGAIN = 600
+"""Shards up to which a bridge without bearings is cut again to see what differs: of 600 in 5 s."""
+
+_LEAST_OF_LARGEST = 0.05
+"""Part of the largest force that what differs is compared with at least: bearings may carry next to nothing."""
+
+_TURNS_FREELY_M = 0.01
+"""Lever of a bearing's force by which its moment about the axis across the road is no more than what cuts leave."""
 
 _SAME_AXIS_M = 0.05
 """Distance along the road up to which bearings on several members are in one axis."""
@@ -112,36 +121,68 @@ def bearing_axes(model: Model, bearings: Sequence[BearingForce]) -> tuple[Bearin
 def bearing_facts(
     scenario: Scenario, model: Model, rest: Equilibrium, bearings: Sequence[BearingForce]
 ) -> Iterator[Fact]:
-    """Yield what bearings carry, with the sum of each axis, and how far those that share it differ in another cut.
+    """Yield what bearings carry, with the sum of each axis, and how far they differ in another cut of this bridge.
 
-    Both cuts are compared without cracks, in which they are at `rest`. What each of two decks that meet over a pier
-    lays on it, statics of that deck say alone: no other cut is made for it.
+    Both cuts are compared without cracks, in which they are at `rest`. No other cut is made where statics alone say
+    what each carries, as of decks of one span.
     """
     axes = bearing_axes(model, bearings)
-    shared = [axis for axis in axes if _is_shared(model, axis)]
-    together = [number for axis in shared for number in axis.bearings]
-    other = next_cut(scenario, model) if shared else None
+    redundant = _redundant(model, axes, bearings)
+    other = next_cut(scenario, model) if redundant else None
     own_n = _upwards_n(model, rest)
-    more_n = np.zeros(len(own_n)) if other is None else _upwards_n(other, model_at_rest(other, scenario.joints)) - own_n
+    other_rest = None if other is None else model_at_rest(other, scenario.joints)
+    more_n = np.zeros(len(own_n)) if other is None else _upwards_n(other, given(other_rest)) - own_n
     for number, bearing in enumerate(bearings):
         along, across, up = _KILO * bearing.force_n
         lifted = "" if up else ": it has lifted off"
         text = f"{up:z.1f} kN up, {along:z.1f} kN along, {across:z.1f} kN across{lifted}"
-        if other is not None and number in together:
+        if other is not None and number in redundant:
             text += f"; {_KILO * more_n[number]:+.1f} kN up in another cut"
         yield bearing.name, text
     for axis in axes:
         sum_n = math.fsum(float(bearings[number].force_n[2]) for number in axis.bearings)
         yield axis.name, f"{_KILO * sum_n:z.1f} kN up in all"
-    if other is not None:
-        seed, largest = other_seed(scenario), max(float(own_n[list(axis.bearings)].mean()) for axis in shared)
-        share = float(abs(more_n[together]).max()) / largest
+    if other is not None and other_rest is not None:
+        usual_n = own_n.copy()
+        for axis in axes:
+            usual_n[list(axis.bearings)] = own_n[list(axis.bearings)].mean()
+        compared_n = np.maximum(usual_n, _LEAST_OF_LARGEST * usual_n.max())
+        most, more = (abs(more_n) / compared_n)[redundant].max(), _differences_text((model, rest), (other, other_rest))
         yield (
             "another cut",
-            f"by seed {seed}: single bearings differ by up to {share:.1%} of what one of an axis carries",
+            f"by seed {other_seed(scenario)}: single bearings differ by up to {most:.1%} of what one of",
         )
-        yield "", "in the mean. bda check --cuts 5 compares more cuts"
+        yield "", f"their axis carries in the mean, {more}."
+        yield "", "bda check --cuts 5 compares more cuts"
         yield from _alike_cuts_facts(scenario, model)
+    elif not redundant:
+        yield "of statics alone", "what each bearing carries upwards: it is the same however the bridge is cut"
+
+
+def another_cut_facts(scenario: Scenario, resting: RestingModel) -> Iterator[Fact]:
+    """Yield how a bridge without bearings, elastic and at rest, differs in another cut."""
+    model = resting.model
+    if model.bearings is not None or not resting.rest.held[: len(model.shards)].any():
+        return
+    if len(model.shards) > MOST_SHARDS_CUT_AGAIN:
+        yield "another cut", f"is not made of more than {MOST_SHARDS_CUT_AGAIN} shards"
+        return
+    other = next_cut(scenario, model)
+    if other is not None:
+        differences = _differences_text((model, resting.rest), (other, model_at_rest(other, scenario.joints)))
+        yield "another cut", f"by seed {other_seed(scenario)}: {differences}"
+
+
+def _differences_text(one: tuple[Model, Equilibrium], other: tuple[Model, Equilibrium]) -> str:
+    """Say by how much the deflection and the first frequency of another cut differ, without cracks."""
+    deflections_m, frequencies_hz = (
+        [deflection_m(*one), deflection_m(*other)],
+        [one[1].frequency_hz, other[1].frequency_hz],
+    )
+    texts = []
+    for name, (own, others) in (("deflection", deflections_m), ("first frequency", frequencies_hz)):
+        texts.append(f"the {name} by {others / own - 1.0:+.1%}" if own else f"the {name} is 0")
+    return ", ".join(texts)
 
 
 def _alike_cuts_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
@@ -160,14 +201,32 @@ def _alike_cuts_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
     yield "", "show what all of them leave out"
 
 
-def _is_shared(model: Model, axis: BearingAxis) -> bool:
-    """Return whether two bearings of an axis hold one body, of all that hangs together but for its bearings."""
-    bearings, pairs = given(model.bearings), model.connections.pairs
-    between = np.delete(pairs, bearings.springs.rows, axis=0)
-    between = between[(between >= 0).all(axis=1)]
-    body_of_shard = connected_parts(~model.fixed, *between.T)
-    above = [int(body_of_shard[pairs[bearings.rows_of(number)[0], 0]]) for number in axis.bearings]
-    return len(set(above)) < len(above)
+def _redundant(model: Model, axes: Sequence[BearingAxis], bearings: Sequence[BearingForce]) -> list[int]:
+    """Return the numbers of bearings whose forces upwards do not follow from statics alone.
+
+    Statics say what two bearings carry that turn freely and hold a body that nothing else does: all that hangs together
+    but for its bearings.
+    """
+    rows, pairs = given(model.bearings), model.connections.pairs
+    between = np.delete(pairs, rows.springs.rows, axis=0)
+    is_held = np.append(model.fixed, True)[between]  # the ground, at index -1, is
+    body_of_shard = connected_parts(~model.fixed, *between[~is_held.any(axis=1)].T)
+    held = set(body_of_shard[between[is_held.any(axis=1)][~is_held[is_held.any(axis=1)]]].tolist())
+    above = {
+        number: int(body_of_shard[pairs[own[0], 0]])
+        for number in range(len(bearings))
+        if len(own := rows.rows_of(number))
+    }
+    for axis in axes:
+        bodies = [above[number] for number in axis.bearings]
+        held |= {body for body in bodies if bodies.count(body) > 1}
+    turned = {
+        body
+        for number, body in above.items()
+        if abs(bearings[number].moment_nm[1]) > _TURNS_FREELY_M * abs(bearings[number].force_n[2])
+    }
+    holds = list(above.values())
+    return [number for number, body in above.items() if body in held | turned or holds.count(body) > 2]
 
 
 def other_seed(scenario: Scenario, number: int = 1) -> int:

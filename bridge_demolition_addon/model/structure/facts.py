@@ -9,7 +9,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from ...engineering.elasticity.accuracy import expected_corner_deviation, expected_deviation, spacing_m
+from ...engineering.elasticity.accuracy import spacing_m
 from ...engineering.elasticity.equations import connected_parts
 from ...engineering.elasticity.equilibrium import Equilibrium
 from ...engineering.elasticity.member_shapes import member_shapes
@@ -29,7 +29,7 @@ from ..scenario.girders import GirderSpan, StudRow
 from ..scenario.scenario import JointName, bearing_tables, studs_of
 from ..scenario.steelwork import Steelwork
 from ..schema import given
-from .bearing_ranges import bearing_facts
+from .bearing_ranges import another_cut_facts, bearing_facts
 from .cracking import CrackedBridge, RestingModel
 from .equilibrium import deflection_m, force_utilisations, loads_of, overloaded
 from .member_layers import LayersOfMember, layers_of_members, spread_bars
@@ -46,9 +46,6 @@ MOST_MEMBERS_NAMED = 3
 
 _NO_KIND = "member"
 """Kind of members from files of which the scenario says none: they are named one by one."""
-
-_SPANS = 0.7
-"""Length over that of the longest member from which on a member spans."""
 
 _ACROSS = {"turn x": (1, 2), "turn y": (0, 2), "turn z": (0, 1)}
 """Axes along which faces that are apart hold against a rotation that each of them leaves free."""
@@ -386,39 +383,27 @@ def _damping_text(scenario: Scenario, frequency_hz: float) -> str:
     return f"{asked:.1%} of critical, {by_steps:.1%} of it by steps in time"
 
 
-def accuracy_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
-    """Yield how many shards members have along their length and depth, and how far elastic results are off for that."""
+def accuracy_facts(scenario: Scenario, resting: RestingModel) -> Iterator[Fact]:
+    """Yield how many shards members have along their length and depth, and what differs in another cut."""
+    model = resting.model
     moves = np.bincount(model.member_of_shard[~model.fixed], minlength=len(model.members)) > 0
     moves &= np.array([member.steel is None for member in model.members])
     if scenario.steelwork:
         pieces = sorted({scenario.steelwork.pieces_of(table) for table in scenario.steelwork.all_members})
         ranged = " to ".join(dict.fromkeys(f"{count}" for count in (pieces[0], pieces[-1])))
         yield "pieces of a steel bar", f"{ranged} along its length: docs/steel.md says how far off bending is with few"
-    lengths_m, along, deep = _fineness(model)
+    along, deep = _fineness(model)
     kinds = np.array([member.name if member.kind == _NO_KIND else member.kind for member in model.members])
     for kind in dict.fromkeys(kinds[moves].tolist()):
         rows = np.flatnonzero(moves & (kinds == kind))
         fewest = rows[np.argmin(along[rows])]
         of_many = f", of {len(rows)} in the coarsest" if len(rows) > 1 else ""
         yield f"shards of {kind}", f"{along[fewest]:.0f} along its length, {deep[fewest]:.0f} in its depth{of_many}"
-    spans = moves & (lengths_m >= _SPANS * lengths_m[moves].max(initial=0.0))
-    if spans.any():
-        fewest_along = float(along[spans].min())
-        yield (
-            "expected deviation",
-            f"{expected_deviation(fewest_along):.0%} of moments, deflections and the mean of bearings that are alike,",
-        )
-        yield "", f"with {fewest_along:.0f} shards along what spans: medians of five cuts of other bridges, no bounds"
-        if scenario.bridge and scenario.bridge.skew_deg:
-            at_corners = expected_corner_deviation(fewest_along)
-            yield (
-                "at acute corners",
-                f"{at_corners:.0%} of reactions, small as they are there: the most of five cuts of another bridge",
-            )
+    yield from another_cut_facts(scenario, resting)
 
 
-def _fineness(model: Model) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Lengths of members, m, and shards along their lengths and depths, (k,) each."""
+def _fineness(model: Model) -> tuple[np.ndarray, np.ndarray]:
+    """Shards along the lengths and depths of members, (k,) each."""
     counts = np.bincount(model.member_of_shard, minlength=len(model.members)).tolist()
     shapes = member_shapes([member.solid for member in model.members])
     fineness = []
@@ -427,9 +412,9 @@ def _fineness(model: Model) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         extents = shapes.extents_m[row].tolist() if shapes.are_filled[row] else _extents_of_walls(member)
         thickness, width, length = extents
         spacing = spacing_m(member.volume_m3, max(count, 1), thickness, width)
-        fineness.append((length, length / spacing, max(1.0, thickness / spacing)))
-    lengths, along, deep = np.array(fineness).reshape(-1, 3).T
-    return lengths, along, deep
+        fineness.append((length / spacing, max(1.0, thickness / spacing)))
+    along, deep = np.array(fineness).reshape(-1, 2).T
+    return along, deep
 
 
 def _extents_of_walls(member: Member) -> tuple[float, float, float]:
