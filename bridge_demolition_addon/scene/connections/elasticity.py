@@ -23,6 +23,9 @@ _STIFFNESS = "bda_stiffness"
 _DAMPING_RATIO = "bda_damping_ratio"
 _THICKNESS = "bda_thickness"
 _UPPER = np.triu_indices(6)
+_ROUNDING = 1e-12
+"""Part of the largest stiffness of a connection: one that is 0 may be so far below it, once it was turned."""
+
 _UNCOUPLED = 7
 """Numbers of files that were saved before: axial, shear along y and z, torsion, and three of bending about y and z."""
 
@@ -98,7 +101,8 @@ def _kept_matrix(connection: bpy.types.Object) -> np.ndarray:
     if len(numbers) != _UNCOUPLED:
         matrix[_UPPER] = numbers
         matrix += np.triu(matrix, 1).T
-    if (np.diagonal(matrix) < 0.0).any():
+    diagonal = np.diagonal(matrix)
+    if (diagonal < -_ROUNDING * diagonal.max()).any():
         raise edited(connection, _STIFFNESS, expected)
     return matrix
 
