@@ -38,7 +38,8 @@ def _ground(request: dict[str, Any]) -> dict[str, Any]:
         vertices = whole.vertices if mapped is None else mapped
         notes = [] if mapped is None else ["its heights are those of its map"]
     np.savez(request["kept"], vertices=vertices, triangles=whole.triangles)
-    return {"surfaces": len(meshes), "others": [], "notes": [*source.notes, *lost, *notes]}
+    of_file = [note.partition("; --unit")[0] for note in source.notes]
+    return {"surfaces": len(meshes), "others": [], "notes": [*of_file, *lost, *notes]}
 
 
 def _without_lost(meshes: Sequence[TriangleMesh]) -> tuple[TriangleMesh, tuple[str, ...]]:

@@ -7,6 +7,7 @@ import traceback
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from itertools import chain
 from pathlib import Path
 from types import FrameType
 from typing import Any
@@ -228,7 +229,9 @@ def _text(content: bytes) -> str:
 def _guessed_unit(model: Any) -> str:
     """Return the unit that most coordinates of a file can be in, m or mm; empty where it has none."""
     points = (point.Coordinates for point in model.by_type("IfcCartesianPoint"))
-    sizes = sorted(abs(float(value)) for values in points for value in values or () if value)
+    lists = () if model.schema == "IFC2X3" else model.by_type("IfcCartesianPointList3D")
+    rows = (row for points_of in lists for row in points_of.CoordList or ())
+    sizes = sorted(abs(float(value)) for values in chain(points, rows) for value in values or () if value)
     if not sizes:
         return ""
     return "mm" if sizes[int(_MOST * (len(sizes) - 1))] > _LARGEST_IN_METRES else "m"

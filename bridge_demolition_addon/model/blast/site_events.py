@@ -19,6 +19,7 @@ from ...engineering.blast.site_law import SiteLaw, fitted_law
 from ...engineering.units import STANDARD_GRAVITY_M_S2
 from ...errors import BlastError, ScenarioError, UnreadableError
 from ...system.reading import MEGABYTE, file_text
+from ..schema import shown
 from .vibration_laws import OF_CHARGES, OF_FALL
 
 _MOST_BYTES = 10 * MEGABYTE
@@ -261,7 +262,8 @@ def _number(path: Path, number: int, row: Sequence[str], column: _Column) -> flo
         value = np.nan
     if not (np.isfinite(value) and value > 0.0):
         raise ScenarioError(
-            f'{path}, row {number}: "{column.head}" is "{cell}": expected a number above 0, its unit in the head alone'
+            f'{path}, row {number}: "{column.head}" is {shown(cell)}: expected a number above 0, '
+            "its unit in the head alone"
         )
     return value
 

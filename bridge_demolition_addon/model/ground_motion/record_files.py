@@ -11,6 +11,7 @@ import numpy as np
 from ...engineering.ground_motion import GroundRecord, integrated
 from ...errors import ScenarioError, UnreadableError
 from ...system.reading import MEGABYTE, csv_rows, file_text
+from ..schema import shown
 from .settings import DIRECTIONS
 
 _MOST_BYTES = 50 * MEGABYTE
@@ -62,9 +63,9 @@ def _row(path: Path, number: int, row: list[str], columns: int) -> list[float]:
     try:
         numbers = list(map(float, row))
     except ValueError as error:
-        raise ScenarioError(f"{path}, row {number}: expected numbers, found {', '.join(row)}") from error
+        raise ScenarioError(f"{path}, row {number}: expected numbers, found {shown(', '.join(row))}") from error
     if not np.isfinite(numbers).all():
-        raise ScenarioError(f"{path}, row {number}: expected finite numbers, found {', '.join(row)}")
+        raise ScenarioError(f"{path}, row {number}: expected finite numbers, found {shown(', '.join(row))}")
     return numbers
 
 

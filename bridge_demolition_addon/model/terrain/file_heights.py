@@ -36,6 +36,11 @@ class FileHeights:
     notes: tuple[str, ...] = ()
 
 
+def no_number(error: ValueError) -> str:
+    """Return what is no number, of the error that Python and numpy raise of a text."""
+    return f"{str(error).rpartition(': ')[2]}, which is no number"
+
+
 def note_on_lost(lost: int, total: int, first: str) -> tuple[str, ...]:
     """Return a note on triangles that name points that are not there; a `GeometryError` where they are not few."""
     if lost and lost == total:
@@ -78,7 +83,7 @@ def read_ascii_grid(path: Path, no_data: float | None) -> Raster:
     try:
         heights = np.array(numbers.split(), dtype=float)
     except ValueError as error:
-        raise GeometryError(f"a height is no number ({error})") from error
+        raise GeometryError(f"a height is {no_number(error)}; export it again") from error
     if len(heights) != rows * columns:
         raise GeometryError(f"holds {len(heights)} heights: expected {rows} rows of {columns}")
     unknown = header.get("nodata_value", _NO_DATA) if no_data is None else no_data

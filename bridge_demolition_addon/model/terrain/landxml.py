@@ -18,6 +18,8 @@ from .file_heights import FileHeights, note_on_lost
 
 _MOST_BYTES = 300 * MEGABYTE
 
+_CORNERS = 3
+
 _POINTS = ("CgPoint", "P", "DataPoint")
 
 _FEET = {"foot": 0.3048, "USSurveyFoot": 0.304800609601}
@@ -67,23 +69,28 @@ def _triangles(definition: ElementTree.Element) -> tuple[TriangleMesh, tuple[str
         known = sum(_name(element) in _POINTS for element in definition.iter())
         has = f"{known} points, but no triangles" if known else "no triangles"
         raise GeometryError(f"its surface has {has}: expected Pnts and Faces, as of a TIN")
-    try:
-        positions = {point.get("id"): [float(value) for value in (point.text or "").split()] for point in points}
-        rows = {name: row for row, name in enumerate(positions)}
-        visible = [face for face in faces if face.get("i") != "1"]
-        named = [(face.text or "").split() for face in visible]
-        lost = [number for number, names in enumerate(named, start=1) if not rows.keys() >= set(names)]
-        first = f"number {lost[0]}, <F>{' '.join(named[lost[0] - 1])}</F>" if lost else ""
-        notes = note_on_lost(len(lost), len(named), first)
-        corners = [[rows[name] for name in names] for names in named if rows.keys() >= set(names)]
-        vertices, triangles = np.array(list(positions.values()), float), np.array(corners, np.int64)
-    except (KeyError, ValueError) as error:
-        raise GeometryError(f"its surface is damaged: a point or triangle is none ({error})") from error
-    if not len(triangles) or vertices.ndim != 2 or vertices.shape[1] != 3 or triangles.shape[1] != 3:
+    positions = {point.get("id"): place for point in points if (place := _place(point.text or ""))}
+    rows = {name: row for row, name in enumerate(positions)}
+    visible = [face for face in faces if face.get("i") != "1"]
+    named = [(face.text or "").split() for face in visible]
+    is_whole = [len(names) == _CORNERS and rows.keys() >= set(names) for names in named]
+    lost = [number for number, whole in enumerate(is_whole, start=1) if not whole]
+    first = f"number {lost[0]}, <F>{' '.join(named[lost[0] - 1])}</F>" if lost else ""
+    notes = note_on_lost(len(lost), len(named), first)
+    corners = [[rows[name] for name in names] for names, whole in zip(named, is_whole, strict=True) if whole]
+    vertices, triangles = np.array(list(positions.values()), float), np.array(corners, np.int64)
+    if not len(triangles):
         raise GeometryError("its surface has no triangles: expected three numbers in each P and each F")
-    if not np.isfinite(vertices).all():
-        raise GeometryError("its surface is damaged: a point has no position; export it again")
     return TriangleMesh(vertices[:, [1, 0, 2]], triangles), notes
+
+
+def _place(text: str) -> list[float] | None:
+    """Return the three numbers of a point; None where it has others, so that its triangles lack it."""
+    try:
+        place = [float(value) for value in text.split()]
+    except ValueError:
+        return None
+    return place if len(place) == _CORNERS and np.isfinite(place).all() else None
 
 
 def _unit(root: ElementTree.Element) -> tuple[str, float]:

@@ -15,6 +15,7 @@ from ...engineering.terrain.surface import Surface
 from ...errors import GeometryError, MissingLibraryError
 from ...system.isolated import isolated
 from ...system.reading import MEGABYTE, check_file, file_text
+from .file_heights import no_number
 
 _MOST_BYTES = 500 * MEGABYTE
 
@@ -108,7 +109,7 @@ def _first_columns(lines: Sequence[str]) -> np.ndarray:
     try:
         values = np.array(_words(" ".join(lines)), dtype=float)
     except ValueError as error:
-        raise GeometryError(f"expected lines of x, y and z ({error}); {_NAME_THEM}") from error
+        raise GeometryError(f"expected lines of x, y and z, found {no_number(error)}; {_NAME_THEM}") from error
     if len(values) != width * len(lines):
         raise GeometryError(f"expected {width} numbers in each line, as in the first")
     points = values.reshape(-1, width)
@@ -122,8 +123,10 @@ def _columns(lines: Sequence[str], columns: Sequence[int]) -> np.ndarray:
     try:
         rows = [[words[column] for column in columns] for words in map(_names, lines)]
         return np.array(rows, dtype=float).reshape(-1, _FEWEST_COLUMNS)
-    except (ValueError, IndexError) as error:
-        raise GeometryError(f"expected numbers in the columns of x, y and z ({error})") from error
+    except IndexError as error:
+        raise GeometryError("expected columns of x, y and z in each line, as in the first") from error
+    except ValueError as error:
+        raise GeometryError(f"expected numbers in the columns of x, y and z, found {no_number(error)}") from error
 
 
 def _words(text: str) -> list[str]:

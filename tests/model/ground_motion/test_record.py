@@ -102,8 +102,9 @@ def test_an_accelerogram_is_read_in_its_unit_and_directions(tmp_path, unit, fact
     [
         (("0.02,", "0.01,"), {}, "row 4: the time is 0.01 s after 0.01 s: expected times that increase"),
         (("0.04,0", "0.07,0"), {}, "row 6: a gap of 0.04 s after 0.03 s, where samples are 0.01 s apart"),
-        (("0.2,0.1", "nan,0.1"), {}, "row 3: expected finite numbers, found 0.01, nan, 0.1"),
-        (("0.2,0.1", "x,0.1"), {}, "row 3: expected numbers, found 0.01, x, 0.1"),
+        (("0.2,0.1", "nan,0.1"), {}, 'row 3: expected finite numbers, found "0.01, nan, 0.1"'),
+        (("0.2,0.1", "x,0.1"), {}, 'row 3: expected numbers, found "0.01, x, 0.1"'),
+        (("0.2,0.1", '"0.2",x' + "9" * 500), {}, 'row 3: expected numbers, found "0.01, 0.2, x9{20,80}'),
         (("", ""), {"directions": ("along",)}, "row 2: has 3 columns: expected 2, the time in s and an acceleration"),
         (("0.01,0.2,0.1", "0,01;0,2;0,1"), {}, "row 2: has 1 columns: expected 3"),
         (("0.2,", "6.2,"), {}, 'ground_motion.unit is "g", by which .* has up to 6.2 g: expected at most 5 g'),

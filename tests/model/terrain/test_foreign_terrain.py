@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Terrain as other programs write it: heights of a plane that are known, in their units, spellings and surfaces."""
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -65,6 +66,19 @@ def test_triangles_without_their_points_are_left_out_where_they_are_few(tmp_path
     path.write_text(path.read_text().replace("</Faces>", "<F>7 8 88888</F>" * 100 + "</Faces>"))
     with pytest.raises(GeometryError, match=r"101 of 3301 triangles .* first number 3201, <F>1 2 99999</F>"):
         read(path)
+
+
+@pytest.mark.parametrize("wrong", ["", "1 abc 3", "1 2", "1 2 nan", "1 2 3 4"])
+def test_a_point_that_is_none_costs_its_triangles_and_not_the_file(wrong, tmp_path):
+    """Point 1 is at a corner, of two triangles."""
+    path = write_landxml(tmp_path / "a.xml")
+    text = path.read_text()
+    point = text[text.index('<P id="1">') : text.index("</P>")]
+    path.write_text(text.replace(point, f'<P id="1">{wrong}').replace("</Faces>", "<F>1 2</F></Faces>"))
+    found = read(path)
+    lost = sum("1" in names.split() for names in re.findall("<F>(.*?)</F>", text)) + 1
+    assert found.notes == (f"{lost} of 3201 triangles name points that are not there: left out",)
+    assert found.source.heights_at(np.array([[EASTING + 5.0, NORTHING]])) == pytest.approx(HEIGHT + 1.0)
 
 
 @pytest.mark.parametrize("no_data", ["nan", "-9999.0"])
@@ -185,6 +199,18 @@ def test_triangles_of_ifc_without_their_points_are_left_out_where_they_are_few(t
     path.write_text(TIN.format("(1,2,3),(3,4,6),(0,1,2),(3,4,5),(1,2)"))
     with pytest.raises(ScenarioError, match="damaged: 4 of 5 triangles name points that are not there, first number 2"):
         read(path)
+
+
+def test_ifc_ground_without_a_unit_is_in_that_of_its_points(tmp_path):
+    """A list of points is all that it has: they are in metres; a thousand times as large, in millimetres."""
+    path = tmp_path / "ground.ifc"
+    text = TIN.format("(1,2,3),(1,3,4)").replace("#1=IFCSIUNIT(*,.LENGTHUNIT.,$,.METRE.);\n", "").replace("(#1)", "()")
+    path.write_text(text)
+    assert "the file has no unit of length that is known: taken for m" in read(path).notes
+    assert read(path).source.heights_at(np.array([[3.0, 2.0]])) == pytest.approx(1.5)
+    points = "(9.,9.,9.),(0.,0.,1.),(8.,0.,1.),(8.,8.,3.),(0.,8.,3.)"
+    path.write_text(text.replace(points, points.replace(".", "000.")))
+    assert read(path).source.heights_at(np.array([[3.0, 2.0]])) == pytest.approx(1.5)
 
 
 @pytest.mark.long

@@ -149,7 +149,11 @@ BROKEN = {
     "no place": ("a.asc", lambda path: write_asc(path, header={"xllcenter": None}), "has no xllcorner"),
     "too few": ("a.asc", lambda path: write_asc(path, header={"nrows": 40}), r"holds 1681 heights: expected 40 rows"),
     "negative cells": ("a.asc", lambda path: write_asc(path, header={"cellsize": -2.5}), "expected more than 0"),
-    "words": ("a.asc", written("ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2\n3 x\n"), "no number"),
+    "words": (
+        "a.asc",
+        written("ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2\n3 x\n"),
+        "a height is 'x', which is no number",
+    ),
     "not declared": (
         "a.asc",
         lambda path: write_asc(path, hole, no_data=-32768, header={"NODATA_value": -1}),
@@ -157,6 +161,17 @@ BROKEN = {
     ),
     "only two columns": ("a.xyz", written("1 2\n3 4\n5 6\n"), "expected lines of x, y and z"),
     "ragged": ("a.xyz", written("1 2 3\n3 4\n5 6 7\n"), "expected 3 numbers in each line"),
+    "words for numbers": (
+        "a.xyz",
+        written("1 2 3\n3 4 x5\n5 6 7\n"),
+        "lines of x, y and z, found 'x5', which is no number",
+    ),
+    "words in columns": (
+        "a.csv",
+        written("x,y,z,code\n1,2,3,a\n3,4,b,a\n5,6,7,a\n"),
+        "z, found 'b', which is no number",
+    ),
+    "short lines": ("a.csv", written("x,y,z\n1,2,3\n3,4\n5,6,7\n"), "expected columns of x, y and z in each line"),
     "a line": ("a.xyz", written("0 0 1\n1 1 1\n2 2 1\n3 3 1\n"), "lie on a line"),
     "no points": ("a.xyz", written("x y z\n"), "expected lines of x, y and z"),
     "no XML": ("a.xml", written("<LandXML>"), "cannot be read as LandXML"),
