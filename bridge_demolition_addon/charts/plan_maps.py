@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 from manifold3d import CrossSection
@@ -23,7 +23,6 @@ from ..model.debris.exclusion import ExclusionZone
 from ..model.debris.footprint import plan_hulls
 from ..model.debris.throws import Debris, HeightMap
 from ..model.results.arrays import Results
-from ..model.scenario import Zone
 from ..texts import Quantity, Text, Unit
 from .style import MM_PER_INCH, MM_PER_POINT, PAGE_WIDTH_MM, blank_figure, lay_out, plain
 
@@ -61,8 +60,17 @@ _SEEN = 33
 _ARROW = {"arrowstyle": "-|>", "color": "black", "linewidth": 0.8, "shrinkA": 0.0, "shrinkB": 0.0}
 
 
+class OnPlan(Protocol):
+    """What is drawn on plans by its outline and its name: a zone, a fall bed."""
+
+    @property
+    def name(self) -> str: ...
+    @property
+    def corners_m(self) -> tuple[tuple[float, float], ...]: ...
+
+
 def debris_map(
-    figure: FigureBase, results: Results, debris: Debris, zones: Sequence[Zone] = (), *, trajectories: bool = False
+    figure: FigureBase, results: Results, debris: Debris, zones: Sequence[OnPlan] = (), *, trajectories: bool = False
 ) -> None:
     """Draw where the debris lies, where the bridge stood and, if asked for, the paths of the shards' centres."""
     axes = plan_axes(figure)
@@ -93,7 +101,7 @@ def debris_map(
     draw_ground(axes, debris.ground)
 
 
-def debris_figure(results: Results, debris: Debris, zones: Sequence[Zone] = ()) -> Figure:
+def debris_figure(results: Results, debris: Debris, zones: Sequence[OnPlan] = ()) -> Figure:
     """Draw `debris_map` on a figure of its own, as wide as a page."""
     low, high = _bounds_of([("", debris)])
     size = PAGE_WIDTH_MM / MM_PER_INCH, map_height_mm((*low, *high)) / MM_PER_INCH
@@ -154,7 +162,7 @@ def pile_map(
 
 
 def exclusion_map(
-    figure: FigureBase, zone: ExclusionZone, zones: Sequence[Zone] = (), ground: RecordedGround = LEVEL_GROUND
+    figure: FigureBase, zone: ExclusionZone, zones: Sequence[OnPlan] = (), ground: RecordedGround = LEVEL_GROUND
 ) -> None:
     """Draw the areas that make up the exclusion zone."""
     axes = plan_axes(figure)
@@ -231,7 +239,7 @@ def draw_area(axes: Axes, area: CrossSection, label: str | None = None, **style:
         axes.add_patch(PathPatch(path, label=label, **style))
 
 
-def draw_zones(axes: Axes, zones: Iterable[Zone]) -> None:
+def draw_zones(axes: Axes, zones: Iterable[OnPlan]) -> None:
     """Draw zones of the site."""
     for zone in zones:
         corners = np.array(zone.corners_m)
@@ -239,7 +247,7 @@ def draw_zones(axes: Axes, zones: Iterable[Zone]) -> None:
         axes.add_patch(PathPatch(path, facecolor="none", edgecolor="0.2", hatch="//", linewidth=1.0, alpha=0.6))
 
 
-def name_zones(axes: Axes, zones: Iterable[Zone]) -> None:
+def name_zones(axes: Axes, zones: Iterable[OnPlan]) -> None:
     """Write each zone's name where no other name is, if there is such a position at its sides."""
     letter_m = _NAME_POINTS * MM_PER_POINT * _metres_per_mm(axes)
     style: dict[str, Any] = {
@@ -257,7 +265,7 @@ def name_zones(axes: Axes, zones: Iterable[Zone]) -> None:
         axes.annotate(plain(zone.name), (anchor[0], anchor[1]), ha=across, va=upwards, **style)
 
 
-def _name_box(zone: Zone, across: str, upwards: str, size: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _name_box(zone: OnPlan, across: str, upwards: str, size: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return where a name of a size is anchored in its zone, and its lowest and highest corner (2, 2)."""
     corners = np.array(zone.corners_m)
     low, high = corners.min(axis=0), corners.max(axis=0)

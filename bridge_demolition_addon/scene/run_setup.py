@@ -29,6 +29,7 @@ from ..model.pulls import Pull
 from ..model.results.arrays import digest, known_parts
 from ..model.results.frames import Inventory
 from ..model.scenario import Scenario
+from ..model.scenario.fall_beds import FallBed
 from ..model.sequence.lifts import recorded_structure
 from ..model.structure.tendons import ModelTendons
 from .blast.charges import blast_of, charges_of
@@ -143,6 +144,11 @@ def _pull_parts(setup: RunSetup) -> Parts:
     for number, placed in enumerate(setup.placed_pulls):
         parts |= {f"pull {number}": [repr(placed.load)], f"pull {number} bears": placed.bodies}
     return parts
+
+
+def _bed_parts(setup: RunSetup) -> Parts:
+    """Return no parts without beds: fingerprints of earlier runs do not have them."""
+    return {"fall beds": [repr(bed) for bed in setup.fall_beds]} if setup.fall_beds else {}
 
 
 def _ground_motion_parts(setup: RunSetup) -> Parts:
@@ -289,6 +295,7 @@ class RunSetup:
         hashed=_load_parts, compared={"loads": lambda setup: {"planned": repr(setup.loads)}}, written=_SAME_KEY
     )
     pulls: tuple[Pull, ...] = decides(hashed=_pull_parts, compared={"pulls": _pull_parts}, written=_SAME_KEY)
+    fall_beds: tuple[FallBed, ...] = decides(hashed=_bed_parts, compared={"fall beds": _bed_parts}, written=_SAME_KEY)
     ground_motion: GroundMotionOfScene | None = decides(
         hashed=_ground_motion_parts, compared={"the motion of the ground": _record_parts}, written=_SAME_KEY
     )
@@ -405,6 +412,7 @@ def run_setup_of(scene: bpy.types.Scene, *, with_connections: bool = True) -> Ru
         changes=run_tables_of(scene, Change.kept_in),
         loads=run_tables_of(scene, SizedLoad.kept_in),
         pulls=run_tables_of(scene, Pull.kept_in),
+        fall_beds=run_tables_of(scene, FallBed.kept_in),
         ground_motion=ground_motion_of(scene),
         soil=soil_of(connections.objects),
         bearings=bearings_of(connections.objects),

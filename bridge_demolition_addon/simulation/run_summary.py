@@ -194,7 +194,7 @@ def _of_scenario(
 
 def _touchdown(scenario: Scenario, results: Results) -> dict[str, Any]:
     """Touchdown vibration at each neighbour, by its name; None where nothing fell."""
-    landed, law = landings(results), scenario.site_law(OF_FALL)
+    landed, law = landings(results, scenario.fall_beds), scenario.site_law(OF_FALL)
     shaken = ((neighbour.name, shaking_at(neighbour.position_m, landed, law)) for neighbour in scenario.neighbours)
     return {name: shaking and asdict(shaking) for name, shaking in shaken}
 

@@ -95,6 +95,12 @@ def _windings(points: FloatArray, starts: FloatArray, ends: FloatArray) -> IntAr
     return windings
 
 
+def inside_outline(corners: FloatArray, points: FloatArray) -> BoolArray:
+    """Return whether points (n, 2) lie within an outline with corners (k, 2) in order around it."""
+    found: BoolArray = _windings(points.T[..., None], corners.T, np.roll(corners, -1, axis=0).T) != 0
+    return found
+
+
 def sides_cross(corners: FloatArray) -> bool:
     """Whether two sides of a polygon (k, 2) that are not neighbours meet, or it has no area."""
     ends = np.roll(corners, -1, axis=0)

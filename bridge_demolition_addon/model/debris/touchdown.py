@@ -13,6 +13,7 @@ then in it. A factor of two to either side is usual.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -24,6 +25,7 @@ from ...engineering.geometry.vectors import distance
 from ...engineering.units import STANDARD_GRAVITY_M_S2
 from ..results.arrays import Results
 from ..results.motion import relative_to_ground
+from ..scenario.fall_beds import FallBed, vibration_factors
 from ..schema import given
 
 TOGETHER_S = 0.2
@@ -54,8 +56,8 @@ _AT_LEAST_M = 1.0
 class Landings:
     """Bodies (b,) that fell and were stopped, in the order in which they were.
 
-    Each has the time at which it was fastest on its way down, the frame before it was slowed, and the kinetic energy of
-    its fall and its position (b, 3) then.
+    Each has the time at which it was fastest on its way down, the frame before it was slowed, the kinetic energy of
+    its fall and its position (b, 3) then, and the part of its shaking that fall beds leave.
     """
 
     bodies: np.ndarray
@@ -63,6 +65,7 @@ class Landings:
     masses_kg: np.ndarray
     energies_j: np.ndarray
     places_m: np.ndarray
+    vibration_factors: np.ndarray
 
     def __len__(self) -> int:
         return len(self.bodies)
@@ -91,8 +94,8 @@ class Shaking:
     is_extrapolated: bool = False
 
 
-def landings(results: Results) -> Landings:
-    """Return the shards and balls that fell and were stopped.
+def landings(results: Results, beds: Sequence[FallBed] = ()) -> Landings:
+    """Return the shards and balls that fell and were stopped, by the ground or in fall beds.
 
     A frame lies between the fastest moment of a body and the one in which it is stopped, so that it may land with one
     frame of gravity more: this is counted as if it did.
@@ -110,7 +113,9 @@ def landings(results: Results) -> Landings:
     speeds = speeds + STANDARD_GRAVITY_M_S2 * (frames.time_s[rows + 1] - times)
     masses = inventory.masses_kg[bodies]
     order = np.argsort(times, kind="stable")
-    columns_of_bodies = (bodies, times, masses, 0.5 * masses * np.square(speeds), frames.positions_m[rows, bodies])
+    places = frames.positions_m[rows, bodies]
+    left = vibration_factors(beds, places[:, :2])
+    columns_of_bodies = (bodies, times, masses, 0.5 * masses * np.square(speeds), places, left)
     return Landings(*(values[order] for values in columns_of_bodies))
 
 
@@ -140,8 +145,10 @@ def _shaking(position_m: ArrayLike, landed: Landings, together: slice, law: Site
     middle = (energies[:, None] * landed.places_m[together]).sum(axis=0) / energies.sum()
     distance_m = max(float(distance(np.asarray(position_m, float)[:2], middle[:2])), _AT_LEAST_M)
     energy_j = float(energies.sum())
+    left = float((energies * landed.vibration_factors[together]).sum() / energies.sum())
     velocity = float(law.velocity(distance_m, energy_j / 1e3) if law else touchdown_velocity(distance_m, energy_j))
-    at_most = float(law.at_most(distance_m, energy_j / 1e3)) if law else velocity
+    at_most = left * (float(law.at_most(distance_m, energy_j / 1e3)) if law else velocity)
+    velocity *= left
     mass = float(landed.masses_kg[together].sum())
     is_extrapolated = law is not None and not law.covers(distance_m, energy_j / 1e3)
     time_s = float(landed.times_s[together.start])

@@ -52,6 +52,7 @@ from .bridge_checks import road_line, upright_names
 from .connections import ConnectionSettings, joints_of_connections
 from .contacts import BodyInContact, ContactSettings, SurfaceValues, check_not_both, with_own_values
 from .dead_loads import DeadLoad
+from .fall_beds import FallBed
 from .fracture import FractureSettings
 from .geometry import Geometry
 from .girders import DECK_KIND, GirderSpan, StudRow, joints_of_deck
@@ -121,6 +122,7 @@ class Scenario(Table):
     pressures: tuple[Pressure, ...] = ()
     pulls: tuple[Pull, ...] = ()
     lifts: tuple[Lift, ...] = ()
+    fall_beds: tuple[FallBed, ...] = ()
     recording: RecordingSettings = field(default_factory=RecordingSettings)
     pictures: PictureSettings = field(default_factory=PictureSettings)
     report: ReportSettings = field(default_factory=ReportSettings)

@@ -170,7 +170,7 @@ def _surroundings(results: Results, scenario: Scenario, bodies: np.ndarray) -> d
         outputs[zone_output(zone.name, "entered")] = bool(watched.entries)
         outputs[zone_output(zone.name, "bodies_entered")] = len(watched.entries)
     charges = [charge for charge in scenario.charges if charge.mass_kg > 0.0] if scenario.blast.explosion else []
-    model, landed = BlastModel(scenario.blast.model), landings(results)
+    model, landed = BlastModel(scenario.blast.model), landings(results, scenario.fall_beds)
     of_holes = _of_drilled_charges(scenario)
     for neighbour in scenario.neighbours:
         loads = loads_at(neighbour.position_m, charges, model, scenario.blast.pressure_factor) if charges else None

@@ -8,7 +8,7 @@ from functools import partial
 import numpy as np
 
 from ...charts.histories import throw_distribution
-from ...charts.plan_maps import debris_map, exclusion_map, map_height_mm, pile_map
+from ...charts.plan_maps import OnPlan, debris_map, exclusion_map, map_height_mm, pile_map
 from ...engineering.geometry.plan_areas import outlines
 from ...engineering.geometry.vectors import length
 from ...engineering.units import mass_text, rounded_down, rounded_up, volume_text
@@ -57,7 +57,8 @@ def debris_section(run: ReportedRun, debris: Debris, *, trajectories: bool) -> S
     if len(debris.bodies):
         heights = height_map(results, debris.bodies)
         blocks.append(Paragraph(Text("{}.", PILES_NOTE), is_notice=True))
-        blocks += _debris_blocks(results, debris, heights, zones, trajectories)
+        on_plan: Sequence[OnPlan] = [*zones, *(run.scenario.fall_beds if run.scenario else ())]
+        blocks += _debris_blocks(results, debris, heights, on_plan, trajectories)
     else:
         blocks.append(Paragraph("No shard moved that far: there is no debris.", is_notice=True))
     blocks += _zone_blocks(run, zones)
@@ -160,7 +161,7 @@ def corner_table(zone: ExclusionZone) -> DataTable:
 
 
 def _debris_blocks(
-    results: Results, debris: Debris, heights: HeightMap, zones: Sequence[Zone], trajectories: bool
+    results: Results, debris: Debris, heights: HeightMap, zones: Sequence[OnPlan], trajectories: bool
 ) -> list[Block]:
     covered = debris.outline if debris.area.is_empty() else debris.area
     low, high = np.array(covered.bounds()).reshape(2, 2)

@@ -131,16 +131,21 @@ def _settlement_blocks(results: Results, scenario: Scenario) -> list[Block]:
     ]
 
 
+_IN_BED = "{}: a part of {} is left of the shaking by what lands on it, as the scenario says."
+
+
 def touchdown_section(results: Results, scenario: Scenario) -> Section | None:
     """Return how the fall shakes the ground at the neighbours, by the site's law; None where there are none."""
     if not scenario.neighbours:
         return None
-    landed, law = landings(results), scenario.site_law(OF_FALL)
+    landed, law = landings(results, scenario.fall_beds), scenario.site_law(OF_FALL)
     blocks: list[Block] = [Paragraph(_SHAKING if law is None else site_law_text(law, OF_FALL))]
     known = [(neighbour.name, shaking_at(neighbour.position_m, landed, law)) for neighbour in scenario.neighbours]
     shaken = [(name, shaking) for name, shaking in known if shaking is not None]
     blocks += [Paragraph(_too_near_text(name), True) for name, shaking in shaken if shaking.at_most_m_s is None]
     blocks += [Paragraph(extrapolated_text(name), True) for name, shaking in shaken if shaking.is_extrapolated]
+    beds = [bed for bed in scenario.fall_beds if bed.vibration_factor < 1.0]
+    blocks += [Paragraph(Text(_IN_BED, bed.name, f"{bed.vibration_factor:g}")) for bed in beds]
     if len(landed):
         blocks.append(_shaking_table(shaken, has_law=law is not None))
     else:

@@ -26,6 +26,7 @@ from .breaking import Breaker, Breaks, ElasticPrediction, Resistance
 from .drivers import LastSubstepLoads, ThresholdScale, WarmUp
 from .elastic_connections import ElasticConnections, RestingState, SupportSprings
 from .events import AppliedEvent, Events
+from .fall_beds import FallBeds
 from .frame_sums import FrameSums
 from .ground_drive import GroundDrive
 from .loads import Loads
@@ -133,6 +134,7 @@ class BulletReader:
                 blast,
                 loads_of_run,
                 pulls,
+                self._fall_beds(),
                 tendons,
                 ElasticPrediction(elastic, breaker) if elastic else None,
                 Torques(world.bodies, np.array(setup.bodies.rigid["angular_damping"])),
@@ -157,6 +159,10 @@ class BulletReader:
         """Read nothing any more, once the thread has ended."""
         if self._sums:
             self._sums.close()
+
+    def _fall_beds(self) -> FallBeds | None:
+        beds, gravity_m_s2 = self._setup.fall_beds, float(-self._setup.gravity_m_s2[2])
+        return FallBeds(self._world.bodies, beds, self._inventory, gravity_m_s2) if beds else None
 
     def _free_shards(self) -> np.ndarray:
         """Shards (s,) that can move."""

@@ -13,6 +13,7 @@ from .blast import Blast
 from .breaking import Breaker, ElasticPrediction
 from .drivers import Driver, LastSubstepLoads, ThresholdScale, WarmUp
 from .events import Events
+from .fall_beds import FallBeds
 from .frame_sums import FrameSums, MeasuredSubstep
 from .ground_drive import GroundDrive
 from .loads import Loads
@@ -30,6 +31,7 @@ ORDER = (
     Blast,
     Loads,
     Pulls,
+    FallBeds,
     Tendons,
     ElasticPrediction,
     Torques,
