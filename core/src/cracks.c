@@ -27,10 +27,31 @@ static bar_law bars_at(const bda_cracks *c, int64_t at)
                        c->yield_strain[row], c->hardening[row], c->rupture_strain[row]);
 }
 
+/* Stiffness of sides that lie on each other at a corner; 0 once they have slid off. */
+static double pressed_at(const bda_cracks *c, int64_t at)
+{
+    return c->meets[at] ? c->pressed[c->rows[at % c->count]] : 0.0;
+}
+
 /* Sides that rub at a corner, as bars that yield at their friction. */
 static bar_law sides_at(const bda_cracks *c, int64_t at)
 {
-    return (bar_law){c->grips[at], c->sheared * c->pressed[c->rows[at % c->count]], 0.0};
+    return (bar_law){c->grips[at], c->sheared * pressed_at(c, at), 0.0};
+}
+
+/* Square of the distance of a corner from the middle of the four: sides that slid further have left each other there. */
+static double reach_squared(const bda_cracks *c, int64_t at)
+{
+    double middle[3] = {0.0, 0.0, 0.0}, corner[3], away[3];
+    for (int64_t other = at % c->count; other < CORNERS * c->count; other += c->count) {
+        vector_at(c->first_anchors, CORNERS * c->count, other, corner);
+        for (int axis = 0; axis < 3; axis++)
+            middle[axis] = middle[axis] + corner[axis] / CORNERS;
+    }
+    vector_at(c->first_anchors, CORNERS * c->count, at, corner);
+    for (int axis = 0; axis < 3; axis++)
+        away[axis] = corner[axis] - middle[axis];
+    return dot3(away, away);
 }
 
 /* Place of an anchor of a body. */
@@ -58,7 +79,7 @@ static void gap_at(const bda_cracks *c, const bda_places *p, int64_t at, double 
 /* Friction of sides that are pressed where the gap is closed. */
 static double grip_of(const bda_cracks *c, int64_t at, double opened)
 {
-    return -c->friction * c->pressed[c->rows[at % c->count]] * (opened < 0.0 ? opened : 0.0);
+    return -c->friction * pressed_at(c, at) * (opened < 0.0 ? opened : 0.0);
 }
 
 /* Take over how far bars have yielded and sides have slid by now; say which cracks (t,) bars still hold. */
@@ -86,9 +107,10 @@ int bda_cracks_settle(const bda_cracks *c, const bda_places *p, uint8_t *holds)
             c->flows[at] = c->flows[at] + bar.flow;
         }
         double opened = dot3(normal, gap);
+        slide_of_gap(gap, normal, opened, slid);
+        c->meets[at] = c->meets[at] && dot3(slid, slid) <= reach_squared(c, at);
         bar_law sides = sides_at(c, at);
         vector_at(c->rests, count, at, before);
-        slide_of_gap(gap, normal, dot3(gap, normal), slid);
         bar_force rub = force_of_bar(&sides, slid, before, 0.0);
         slip_of_bar(&rub, before, after);
         put_vector(c->rests, count, at, after);
@@ -128,7 +150,7 @@ static void add_corner(const bda_cracks *c, const bda_places *p, int64_t at, cra
     int64_t count = CORNERS * c->count;
     double world[3], gap[3], normal[3], direction[3], slip[3], rest[3], stretch[3], slid[3], moved[3];
     double pull[3], across[3], rubbing[3], after[3], holds = c->holds[at] ? 1.0 : 0.0;
-    double pressed = c->pressed[c->rows[at % c->count]], opening = c->openings[c->rows[at % c->count]];
+    double pressed = pressed_at(c, at), opening = c->openings[c->rows[at % c->count]];
     bar_law bars = bars_at(c, at), sides = sides_at(c, at);
     gap_at(c, p, at, world, gap);
     vector_at(c->normals, count, at, normal);
@@ -233,7 +255,7 @@ int begin_cracks(const bda_cracks *c, const bda_places *p, const bda_term *t)
         t->stiffness[row] = holds * bars.stiffness;
         t->modulus[row] = holds * bars.modulus;
         t->flows[row] = c->flows[at];
-        t->pressed[row] = c->pressed[c->rows[crack]];
+        t->pressed[row] = pressed_at(c, at);
         t->grips[row] = c->grips[at];
         t->of_gap[row] = row % t->connections;
         t->which[row] = at;

@@ -18,7 +18,7 @@ typedef struct {
     const int64_t *first, *second;              /* (q,), bodies */
     const double *first_anchors, *second_anchors, *normals, *directions; /* (3, q) */
     double *slips, *flows, *rests, *grips;      /* (3, q), (q,), (3, q), (q,) */
-    uint8_t *holds;                             /* (q,), whether bars have not ruptured */
+    uint8_t *holds, *meets;                     /* (q,), whether bars have not ruptured, sides have not slid off */
     double *remembered;                         /* (12, q), as in terms */
     /* Of connections: forces at which bars at corners yield (4, m), part of them that is left, openings at which they
      * rupture, stiffness of pressed sides, steel (m,). */

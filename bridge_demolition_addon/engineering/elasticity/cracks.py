@@ -80,6 +80,7 @@ class Cracks:
         self._first_anchors, self._second_anchors = np.zeros((3, 0)), np.zeros((3, 0))
         self._normals, self._directions = np.zeros((3, 0)), np.zeros((3, 0))
         self._slips, self._flows, self._holds = np.zeros((3, 0)), np.zeros(0), np.zeros(0, bool)
+        self._meets: BoolArray = np.zeros(0, bool)  # corners where sides that have parted can meet again
         self._rests, self._grips_n = np.zeros((3, 0)), np.zeros(0)  # where sides that rub do not pull, and at most by
         self.remembered = np.zeros((12, 0))  # what the core knows of the last sub-step
         self._core: CoreCracks | None = None
@@ -131,6 +132,7 @@ class Cracks:
             slips = self._slips_under(rows, turned_back(rotations[..., ends[0]], pulls_n.reshape(3, -1)), directions)
         self._slips, self._flows = _joined(self._slips, slips), _joined(self._flows, np.zeros(count))
         self._holds = _joined(self._holds, np.ones(count, bool))
+        self._meets = _joined(self._meets, np.ones(count, bool))
         self._rests = _joined(self._rests, np.zeros((3, count)))
         self._grips_n = _joined(self._grips_n, np.zeros(count))
         self.remembered = _joined(self.remembered, np.full((12, count), np.nan))
@@ -209,6 +211,7 @@ class Cracks:
                 "rests": (self._rests, 3 * _COUNT * count),
                 "grips": (self._grips_n, _COUNT * count),
                 "holds": (self._holds, _COUNT * count),
+                "meets": (self._meets, _COUNT * count),
                 "remembered": (self.remembered, 12 * _COUNT * count),
                 "yields": (self._yield_n, _COUNT * connections),
                 "shares": (self._shares, connections),
@@ -259,6 +262,7 @@ class Cracks:
             "_slips",
             "_flows",
             "_holds",
+            "_meets",
             "_rests",
             "_grips_n",
         ):
@@ -333,7 +337,7 @@ class CoreCracks(Struct):
         ("second", Indices),
         *((name, Doubles) for name in ("first_anchors", "second_anchors", "normals", "directions")),
         *((name, WrittenDoubles) for name in ("slips", "flows", "rests", "grips")),
-        ("holds", WrittenFlags),
+        *((name, WrittenFlags) for name in ("holds", "meets")),
         ("remembered", WrittenDoubles),
         *((name, Doubles) for name in ("yields", "shares", "openings", "pressed")),
         *((name, Doubles) for name in ("yield_strain", "hardening", "rupture_strain")),
