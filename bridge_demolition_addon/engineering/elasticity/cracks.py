@@ -155,6 +155,10 @@ class Cracks:
         """Return the connections (d,) whose bars have ruptured at some corners, and hold at others."""
         return self.rows[~self._holds.reshape(_COUNT, -1).all(axis=0)]
 
+    def slid_off(self) -> IntArray:
+        """Return the connections (d,) whose sides have slid off each other at some corners."""
+        return self.rows[~self._meets.reshape(_COUNT, -1).all(axis=0)]
+
     def grip(self, positions_m: FloatArray, rotations: FloatArray) -> bool:
         """Let sides resist sliding by how they would be pressed with bodies at these positions.
 

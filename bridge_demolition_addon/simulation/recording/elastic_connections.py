@@ -333,6 +333,7 @@ class ElasticConnections:
         leaving = self._cracks.ruptured_in_part()
         apart = holding.copy()
         apart[leaving[self._on_ground[leaving]]] = False
+        apart[self._cracks.slid_off()] = False
         return apart
 
     def failed_bearings(self, intact: np.ndarray, left: np.ndarray) -> np.ndarray:
