@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -19,6 +20,11 @@ REST_SPEED_M_S = 0.1
 
 _DECK = "deck"
 _WHOLE = "whole structure"
+_OF_PIER = re.compile(r"pier (\d+)\b")
+"""How the name of a member of a pier begins."""
+
+FALLEN, STANDS = 0.5, 0.1
+"""Parts of its height from which on a span or a pier is down, and up to which it stands."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -59,6 +65,17 @@ def spans_of(results: Results, span_lengths_m: Sequence[float] = ()) -> tuple[Sp
     names = ["deck"] if not len(inner_axes) else [f"span {number + 1}" for number in range(len(inner_axes) + 1)]
     parts = ((name, deck[numbers == row]) for row, name in enumerate(names))
     return tuple(_span(results, ground, name, bodies) for name, bodies in parts if len(bodies))
+
+
+def piers_of(results: Results) -> dict[int, Span]:
+    """Return the piers by their number, all columns and the cap of each together; none where no member is of one."""
+    results = relative_to_ground(results)
+    ground, shards = results.ground(), results.inventory.of_kind("shard")
+    bodies: dict[int, list[int]] = {}
+    for shard in shards.tolist():
+        if found := _OF_PIER.match(str(results.inventory.body_members[shard])):
+            bodies.setdefault(int(found[1]), []).append(shard)
+    return {number: _span(results, ground, f"pier {number}", np.array(bodies[number])) for number in sorted(bodies)}
 
 
 def collapse_progress(results: Results) -> np.ndarray:

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from typing import Any
 
@@ -34,6 +34,7 @@ from ...texts import Text
 from ..bridge.preparation import prepared_members
 from ..scenario import Scenario, Zone
 from ..structure.charge_plan import flyrock_of_run
+from .criteria import part_of_output
 from .file import Study
 from .runs_table import REACH, TRUSTED_REACH, RunsTable
 
@@ -197,6 +198,7 @@ class Conclusions:
     still_moving: int = 0  # runs that ended before everything rested: their distances are not final
     single_moving: int = 0  # runs that rested as a whole, while single shards still moved
     fragments: FragmentLimits | None = None  # None without blast zones
+    standing: tuple[Proportion, ...] = ()  # how often each span and pier, `what`, is not down
 
     def as_json(self) -> dict[str, Any]:
         """Return them as ``study.json`` has them."""
@@ -210,6 +212,7 @@ class Conclusions:
             "still_moving": self.still_moving,
             "single_moving": self.single_moving,
             **({"fragments": as_json(self.fragments)} if self.fragments else {}),
+            "standing": [as_json(part) for part in self.standing],
         }
 
 
@@ -240,7 +243,17 @@ def conclusions(study: Study, table: RunsTable) -> Conclusions:
         still_moving=table.still_moving,
         single_moving=table.single_moving,
         fragments=fragment_limits(table, settings.quantile, confidence, settings.rank),
+        standing=tuple(_standing(table, confidence)),
     )
+
+
+def _standing(table: RunsTable, confidence: float) -> Iterator[Proportion]:
+    """Yield how often each span and pier is not down at the end; a run that did not finish brought nothing down."""
+    for name in table.outputs:
+        part = part_of_output(name)
+        if part is None or not np.isfinite(table.output(name)).any():
+            continue
+        yield proportion(part, ~table.fallen(name), confidence)
 
 
 def _doubtful_throws(study: Study, table: RunsTable) -> DoubtfulThrows | None:

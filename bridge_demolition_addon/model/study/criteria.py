@@ -1,13 +1,19 @@
 """Criteria: what makes a run count as a success, judged from the outputs of its outcome."""
 
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from ...errors import ScenarioError
+from ...texts import Text
+from ..results.collapse import FALLEN, STANDS
 from ..scenario import Scenario
 from ..schema import Table, given, key, shown
 from ..toml_tables import dotted
+
+_LOST_AT_END = re.compile(r"(spans|piers)\.(\d+)\.lost_share")
+"""Names of outputs about a part of the bridge that says whether it came down."""
 
 COLLAPSED = "collapsed_share"
 """Output that says how far the collapse is at the end."""
@@ -24,18 +30,18 @@ class CriterionKind:
 
 
 KINDS = {
-    "collapsed": CriterionKind((), lambda _: COLLAPSED, lambda value, asked: value >= asked.limit_share, 0.5),
+    "collapsed": CriterionKind((), lambda _: COLLAPSED, lambda value, asked: value >= asked.limit_share, FALLEN),
     "span down": CriterionKind(
         ("span",),
         lambda asked: span_output(given(asked.span), "lost_share"),
         lambda value, asked: value >= asked.limit_share,
-        0.5,
+        FALLEN,
     ),
     "span stands": CriterionKind(
         ("span",),
         lambda asked: span_output(given(asked.span), "most_lost_share"),
         lambda value, asked: value <= asked.limit_share,
-        0.1,
+        STANDS,
     ),
     "zone not entered": CriterionKind(
         ("zone",), lambda asked: zone_output(given(asked.zone), "entered"), lambda value, _: not value
@@ -141,6 +147,19 @@ def check_criteria(criteria: tuple[Criterion, ...], scenario: Scenario) -> None:
 def span_output(span: int, quantity: str) -> str:
     """Return the name of an output about a span, by its number from 1."""
     return f"spans.{span}.{quantity}"
+
+
+def pier_output(pier: int, quantity: str) -> str:
+    """Return the name of an output about a pier, by its number from 1."""
+    return f"piers.{pier}.{quantity}"
+
+
+def part_of_output(name: str) -> Text | None:
+    """Return the span or pier of which an output says how much of its height is lost at the end; None of others."""
+    found = _LOST_AT_END.fullmatch(name)
+    if not found:
+        return None
+    return Text("span {}" if found[1] == "spans" else "pier {}", int(found[2]))
 
 
 def zone_output(zone: str, quantity: str) -> str:

@@ -20,13 +20,13 @@ from ..debris.throws import debris_of
 from ..debris.touchdown import landings, shaking_at
 from ..debris.zones import watch_zone
 from ..results.arrays import Results
-from ..results.collapse import ConnectionCounts, Span, collapse_progress, spans_of
+from ..results.collapse import ConnectionCounts, Span, collapse_progress, piers_of, spans_of
 from ..results.energy import is_known, throws_of
 from ..results.motion import relative_to_ground, without_removed
 from ..scenario import Scenario
 from ..structure.charge_plan import AtNeighbour, neighbours_of_zones
 from .conclusions import fragment_outputs
-from .criteria import COLLAPSED, Criterion, neighbour_output, span_output, zone_output
+from .criteria import COLLAPSED, Criterion, neighbour_output, pier_output, span_output, zone_output
 from .runs_table import MOVING, RESTED, TRUSTED_REACH
 
 SUCCESS = "success"
@@ -151,16 +151,23 @@ def _course(results: Results, summary: Mapping[str, Any], scenario: Scenario) ->
     for span in spans_of(results, lengths):
         number = int(span.name.removeprefix("span ")) if span.name.startswith("span ") else 1
         outputs |= _span(number, span)
+    for number, pier in piers_of(results).items():
+        outputs[pier_output(number, "lost_share")] = _lost_share(pier, pier.heights_m[-1])
     return outputs
 
 
 def _span(number: int, span: Span) -> dict[str, Any]:
-    lost_m, height_m = span.heights_m[0] - span.heights_m, float(span.heights_m[0])
     return {
         span_output(number, "drop_m"): span.drop_m,
-        span_output(number, "lost_share"): float(lost_m[-1]) / height_m if height_m > 0.0 else None,
-        span_output(number, "most_lost_share"): float(lost_m.max()) / height_m if height_m > 0.0 else None,
+        span_output(number, "lost_share"): _lost_share(span, span.heights_m[-1]),
+        span_output(number, "most_lost_share"): _lost_share(span, span.heights_m.min()),
     }
+
+
+def _lost_share(span: Span, height_m: float) -> float | None:
+    """Return the part of its first height that a span or a pier has lost at a height; None where it had none."""
+    first_m = float(span.heights_m[0])
+    return (first_m - float(height_m)) / first_m if first_m > 0.0 else None
 
 
 def _surroundings(results: Results, scenario: Scenario, bodies: np.ndarray) -> dict[str, Any]:

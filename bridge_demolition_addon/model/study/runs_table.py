@@ -21,6 +21,7 @@ import numpy as np
 from ...errors import OutputError, UnreadableError
 from ...system.disk import whole_file
 from ...system.reading import MEGABYTE, csv_rows
+from ..results.collapse import FALLEN
 
 RUN, STATUS = "run", "status"
 INPUT, OUTPUT = "in.", "out."
@@ -142,6 +143,10 @@ class RunsTable:
         """Values (n,) of an output where larger is worse: infinity for what is not known."""
         values = self.output(name)
         return np.where(self.done & np.isfinite(values), values, np.inf)
+
+    def fallen(self, name: str) -> np.ndarray:
+        """Which runs (n,) finished with so much of the height of a part lost, by an output, that it is down."""
+        return self.done & (self.output(name) >= FALLEN)
 
     def met(self, name: str) -> np.ndarray:
         """Which runs (n,) finished with an output that is true."""

@@ -27,7 +27,7 @@ from ..sections.planned_sequence import means_text, sequence_section
 from ..single_pages import single_pages
 from ..site_plan import write_areas
 from ..wording.numbers import listed, ordinal, percent, percent_down
-from ..wording.study import input_names, study_sentences
+from ..wording.study import input_names, standing_text, study_sentences
 from ..wording.verdict import Flyrock, clearance_rows, flyrock_of_runs, study_verdict, with_what_is_added
 from .document import doubts_of, ensemble_document, statement_section, unfinished_sentence
 from .influence import correlation_table
@@ -53,6 +53,8 @@ def _plan(runs: StudyRuns, flyrock: Flyrock | str | None) -> Iterator[tuple[str,
     for criterion in conclusions.criteria if conclusions else ():
         at_least = Text("at least {} of such runs do", percent_down(criterion.at_least))
         yield Text("Outcome"), Text("{} of {} runs {}; {}", criterion.count, criterion.runs, criterion.what, at_least)
+    if conclusions and conclusions.standing:
+        yield Text("May stand"), standing_text(conclusions.standing)
     yield Text("Limit"), _limit_text(runs)
     if conclusions and conclusions.fragments:
         flyrock = flyrock_of_runs(conclusions.fragments)

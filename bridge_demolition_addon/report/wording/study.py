@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 from ...engineering.statistics.order_limits import achieved_confidence, least_runs
 from ...engineering.units import rounded_down, rounded_up
@@ -57,6 +58,8 @@ def study_sentences(study: Study, conclusions: Conclusions) -> Iterator[str]:
         yield success_sentence(criterion)
     if conclusions.success and len(conclusions.criteria) > 1:
         yield success_sentence(conclusions.success)
+    for part in conclusions.standing:
+        yield harm_sentence(replace(part, what=Text("left {} standing, or less than half down", part.what)))
 
 
 def fragments_sentence(limits: FragmentLimits, cordon_m: float | None) -> str:
@@ -312,6 +315,23 @@ def shape_sentence(corners: int, quantile: float, confidence: float) -> str:
         percent(quantile),
         percent(confidence),
     )
+
+
+def standing_text(standing: Sequence[Proportion]) -> str:
+    """Return which spans and piers may stand at the end, each with how likely it is at most."""
+    counted = [
+        Text("{}: {} of {} runs, at most {} of such runs", part.what, part.count, part.runs, percent_up(part.at_most))
+        for part in standing
+        if part.count
+    ]
+    likeliest = max(standing, key=lambda part: part.at_most)
+    none = Text(
+        "no span and no pier in {} runs, each in at most {} of such runs",
+        likeliest.runs,
+        percent_up(likeliest.at_most),
+    )
+    which = joined("{}; {}", counted) if counted else none
+    return Text("{} (each by itself with {} confidence)", which, percent(likeliest.confidence))
 
 
 def _unfinished(limit: DebrisLimit, most: Text) -> Text:

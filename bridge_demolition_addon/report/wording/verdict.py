@@ -6,17 +6,13 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from ...engineering.units import rounded_up
+from ...model.results.collapse import FALLEN, STANDS
 from ...model.scenario import Scenario
-from ...model.schema import given
 from ...model.structure.charge_plan import ChargePlan, zone_name
 from ...model.structure.zone_fragments import NO_SAFETY_DISTANCE
 from ...model.study.conclusions import DebrisLimit, FragmentLimits
-from ...model.study.criteria import KINDS
 from ...texts import Text, distance_to_keep, joined
 from .numbers import listed, percent
-
-FALLEN, STANDS = given(KINDS["span down"].share), given(KINDS["span stands"].share)
-"""Parts of its height from which on a span is down, and up to which it stands, as criteria of studies have them."""
 
 NO_LIMIT_OF_ONE_RUN = Text("one run gives no limit to plan with")
 

@@ -2,6 +2,8 @@
 """Conclusions of whole studies, from their tables."""
 
 import json
+import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -44,6 +46,16 @@ def test_a_run_that_crashed_reaches_without_end_and_meets_nothing():
     assert said.as_json()["reach"]["limit_m"] is None
     assert [criterion.count + 2 for criterion in said.criteria] == [criterion.count for criterion in before.criteria]
     assert said.success.count == before.success.count - 2
+
+
+def test_what_did_not_come_down_is_counted_with_its_limit():
+    rows = [*table(crashed=(3,)).rows]
+    rows[9] = replace(rows[9], outputs=rows[9].outputs | {"spans.1.lost_share": 0.49, "piers.2.lost_share": 0.05})
+    span, pier = conclusions(STUDY, RunsTable(tuple(rows))).standing
+    assert (span.what, span.count, pier.what) == ("span 1", 2, "pier 2")  # the run that crashed brought nothing down
+    # Clopper and Pearson (1934): with so many or fewer of 93 runs in 5 % of studies.
+    few = sum(math.comb(93, k) * span.at_most**k * (1.0 - span.at_most) ** (93 - k) for k in range(3))
+    assert few == pytest.approx(0.05, rel=1e-6)
 
 
 def test_conclusions_are_json():

@@ -136,6 +136,15 @@ def test_spans_are_told_apart():
     assert (outputs["spans.1.lost_share"], outputs["spans.2.lost_share"]) == (0.75, 0.0)
 
 
+def test_columns_and_cap_of_a_pier_come_down_together():
+    positions = [[(0, 0, 2), (0, 3, 2), (0, 0, 5), (9, 0, 2)], [(0, 0, 0.5), (0, 3, 2), (0, 0, 2.5), (9, 0, 2)]]
+    members = np.array(["pier 2 column 1", "pier 2 column 2", "pier 2 cap", "pier 10"])
+    outputs = outputs_of(moving_boxes([0, 1], [(1, 1, 1)] * 4, positions, body_members=members))
+    # All weigh as much: the middle of pier 2 comes from 3 m to 5/3 m.
+    assert outputs["piers.2.lost_share"] == pytest.approx(4.0 / 9.0)
+    assert outputs["piers.10.lost_share"] == 0.0
+
+
 def test_forces_are_those_of_the_summary():
     energy = {"made_by_solver": {"share_of_dissipated": 0.3, "share_that_counts": 0.03}}
     known = SUMMARY | {"largest_resultant": {"force_N": 5e6}, "energy": energy}
