@@ -323,10 +323,11 @@ class ElasticConnections:
         return holding
 
     def keeping_apart(self, holding: np.ndarray) -> np.ndarray:
-        """Return which of connections (m,) keep their bodies from colliding: all that hold but feet that bars leave.
+        """Return which of connections (m,) keep their bodies from colliding: all that hold but two kinds.
 
-        Such a foot turns about the bars that are left. It would sink into the ground, which is found out at once when
-        the last of them has ruptured, and pushes it out with energy that is not there.
+        A foot that some bars have left turns about the others. It would sink into the ground, which is found out at
+        once when the last of them has ruptured, and pushes it out with energy that is not there. Sides of a crack that
+        have slid off each other press no more, so that their bodies meet as any do.
         """
         if self._cracks is None:
             return holding
