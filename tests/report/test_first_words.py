@@ -48,6 +48,10 @@ DRILLED_ZONES = replace(
 BALL = replace(TOLD, charges=(), zones=(), neighbours=(), exclusion=None)
 
 
+MUCH_J = 1e9
+"""More than a fall of all shards by 1 cm gives: what the solver made counts by what was dissipated."""
+
+
 def recorded(*, moves, made):
     """A recording whose shards rest or move at its end; the solver made a part of what was dissipated."""
     results = flying_shards(8, 25)
@@ -58,8 +62,8 @@ def recorded(*, moves, made):
     work = replace(
         frames.work,
         gravity_j=np.zeros_like(frames.work.gravity_j),
-        dissipated_j=np.ones_like(frames.work.dissipated_j),
-        made_j=np.full_like(frames.work.made_j, made / frames.work.made_j.shape[1]),
+        dissipated_j=np.full_like(frames.work.dissipated_j, MUCH_J),
+        made_j=np.full_like(frames.work.made_j, MUCH_J * made / frames.work.made_j.shape[1]),
     )
     return replace(results, frames=replace(frames, velocities_m_s=speeds, work=work))
 
