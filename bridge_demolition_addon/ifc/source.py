@@ -59,6 +59,9 @@ _MOST, _LARGEST_IN_METRES = 0.75, 200.0
 
 _RADIAN = {"UnitType": "PLANEANGLEUNIT", "Name": "RADIAN"}
 
+_NUMBER = re.compile(rb"^[ \t]*#(\d+)[ \t]*=", flags=re.MULTILINE)
+_STATEMENT = re.compile(rb"^[ \t]*#(\d+)[ \t]*=(?:'[^']*'|[^';])*+;", flags=re.MULTILINE)
+
 _BEYOND_ASCII = re.compile(r"[^\x00-\x7f]+")
 
 
@@ -114,6 +117,7 @@ def open_source(path: Path, settings: ImportSettings) -> IfcSource:
     content, schema = _content(path)
     mended, count = _AMERICAN.subn(rb"\1METRE\2", content)
     mended, read_as, assumed = _relabelled(mended, schema)
+    mended, repeated = _without_repeated(mended)
     try:
         model, missing = opened(_text(mended))
         has_project = bool(model.by_type("IfcProject"))
@@ -129,7 +133,7 @@ def open_source(path: Path, settings: ImportSettings) -> IfcSource:
         said = "they are left out, and what is placed along these has no shape"
         notes = (*notes, f"{read_as} has no {', '.join(lost)}: {said}")
     unknown, unplaced = unknown_shapes(model, missing)
-    incomplete = (*unplaced, *remove_incomplete(model))
+    incomplete = (*repeated, *unplaced, *remove_incomplete(model))
     if incomplete and settings.strict:
         raise IfcError(f"{path}: {incomplete[0]}; export it again")
     notes = (*notes, *incomplete)
@@ -224,6 +228,25 @@ def _text(content: bytes) -> str:
     except UnicodeDecodeError:  # against the standard, but what programs of some countries write
         text = content.decode("latin-1")
     return _BEYOND_ASCII.sub(lambda match: f"\\X4\\{match.group().encode('utf-32-be').hex().upper()}\\X0\\", text)
+
+
+def _without_repeated(content: bytes) -> tuple[bytes, tuple[str, ...]]:
+    """Return the text without statements of a number that one before has, or of #0, and a note on them."""
+    numbers = _NUMBER.findall(content)
+    if len({b"0", *numbers}) > len(numbers):
+        return content, ()
+    known, repeated = {0}, []
+
+    def first_of_its_number(statement: re.Match[bytes]) -> bytes:
+        number = int(statement[1])
+        if number in known:
+            repeated.append(f"#{number}")
+            return b""
+        known.add(number)
+        return statement[0]
+
+    kept = _STATEMENT.sub(first_of_its_number, content)
+    return kept, (f"of statements with one number the first counts: {', '.join(dict.fromkeys(repeated))}",)
 
 
 def _guessed_unit(model: Any) -> str:

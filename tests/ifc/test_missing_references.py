@@ -40,6 +40,28 @@ def mass_kg(bridge):
     return sum(outcome.member.mass_kg for outcome in bridge.outcomes if outcome.member)
 
 
+def test_of_statements_with_one_number_the_first_counts(tmp_path):
+    """A relation of properties has the number of a point, and one of aggregates none that there can be."""
+    text = whole_bridge().written(tmp_path / "bridge.ifc").read_text()
+    point = re.search(r"#(\d+)=IFCCARTESIANPOINT", text)[1]
+    relations = re.findall(r"#\d+(?==IFCRELASSOCIATES)", text)
+    for relation, number in zip(relations, (point, "0"), strict=False):
+        text = text.replace(f"{relation}=", f"#{number}=")
+    (tmp_path / "bridge.ifc").write_text(text)
+    read = read_bridge(tmp_path / "bridge.ifc", ImportSettings())
+    assert len([outcome for outcome in read.outcomes if outcome.member]) == len(
+        [
+            outcome
+            for outcome in read_bridge(whole_bridge().written(tmp_path / "whole.ifc"), ImportSettings()).outcomes
+            if outcome.member
+        ]
+    )
+    source = open_source(tmp_path / "bridge.ifc", ImportSettings())
+    assert f"of statements with one number the first counts: #{point}, #0" in source.notes
+    with pytest.raises(IfcError, match="of statements with one number the first counts"):
+        open_source(tmp_path / "bridge.ifc", ImportSettings(strict=True))
+
+
 @pytest.mark.parametrize("schema", EDITIONS)
 def test_all_editions_of_a_schema_are_read(schema, tmp_path):
     text = IfcBridge(schema=schema).written(tmp_path / "bridge.ifc").read_text()
