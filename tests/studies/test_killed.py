@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Searches, optimisations and imports that are ended at any moment: the same command comes to the same tables.
+"""Runs, studies, searches, optimisations, imports that are ended at any moment: the same command, the same tables.
 
 With BDA_MOMENTS=50 in the environment each is ended at as many moments, else at a few.
 """
@@ -14,11 +14,17 @@ import pytest
 from support.ifc_bridges import whole_bridge
 from support.optimise_files import optimise_file
 from support.processes import outcome, start_bda, start_program
+from support.scenarios import SHORT_RUN
+from support.study_files import TABLES as STUDY_TABLES
 from support.study_files import study_file
+
+from bridge_demolition_addon.model.scenario.file import scenario_text
 
 MOMENTS = int(os.environ.get("BDA_MOMENTS", "2"))
 SIGNALS = (signal.SIGKILL, signal.SIGTERM)
 TABLES = {
+    "run": ("force_log.csv", "debris_log.csv", "breaking_log.csv", "scenario_as_run.toml"),
+    "study": STUDY_TABLES,
     "search": ("trials.csv", "search.json", "curve.csv"),
     "optimise": ("trials.csv", "candidates.csv", "optimise.json"),
     "import": ("scenario.toml", "elements.csv", "import.txt"),
@@ -46,7 +52,14 @@ kind = "collapsed"
     return folder / "search.toml"
 
 
+def run_file(folder):
+    (folder / "scenario.toml").write_text(scenario_text(SHORT_RUN), encoding="utf-8")
+    return folder / "scenario.toml"
+
+
 FILES = {
+    "run": run_file,
+    "study": study_file,
     "search": search_file,
     "optimise": optimise_file,
     "import": lambda folder: whole_bridge().written(folder / "bridge.ifc"),
@@ -54,6 +67,8 @@ FILES = {
 
 
 def start(command, path, output):
+    if command == "run":
+        return start_bda("run", path, "--output", output, "--no-pictures", "--overwrite")
     if command == "import":
         return start_bda("import", path, "--output", output, "--shards", "20")
     log = output.with_name(f"{output.name}.log")
