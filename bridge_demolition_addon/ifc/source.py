@@ -235,7 +235,8 @@ def _without_repeated(content: bytes) -> tuple[bytes, tuple[str, ...]]:
     numbers = _NUMBER.findall(content)
     if len({b"0", *numbers}) > len(numbers):
         return content, ()
-    known, repeated = {0}, []
+    known: set[int] = {0}
+    repeated: list[str] = []
 
     def first_of_its_number(statement: re.Match[bytes]) -> bytes:
         number = int(statement[1])
