@@ -86,9 +86,8 @@ static int is_intact(const bda_bullet_connections *c, int64_t row)
 int bda_take_snapshot(bda_bullet_bodies *b, const bda_bullet_connections *c, int64_t count, const int64_t *sides,
                       double *components, double *loads, double *impulses, uint8_t *intact)
 {
-    for (int64_t row = 0; row < count; row++)
-        if (sides[row] < 0 || sides[row] >= 2 * c->count)
-            return BDA_OUT_OF_RANGE;
+    if (!all_below(sides, count, 2 * c->count))
+        return BDA_OUT_OF_RANGE;
     copy_places(b, components);
     for (int64_t body = 0; body < b->count; body++)
         components[18 * b->count + body] = double_at(b->addresses[body] + (uint64_t)b->inverse_mass);
@@ -273,14 +272,6 @@ int bda_turn_by_torques(bda_bullet_bodies *b, const double *times_s, double symm
     return BDA_DONE;
 }
 
-static int are_rows(const bda_bullet_rows *rows, int64_t count, const int64_t *chosen)
-{
-    for (int64_t at = 0; at < count; at++)
-        if (chosen[at] < 0 || chosen[at] >= rows->count)
-            return 0;
-    return 1;
-}
-
 /* Write limits, one of r (6, r), times signs (6,) to the held rows of a spring, both alike: crossed limits leave a row free. */
 static void put_limits(const bda_bullet_rows *rows, int64_t spring, const double *limits, int64_t r, const double *signs)
 {
@@ -319,7 +310,7 @@ static void put_frame(uint64_t address, const double *axes, const double *points
 int bda_expect(const bda_bullet_rows *rows, int64_t count, const int64_t *chosen, const double *limits,
                const double *signs)
 {
-    if (!are_rows(rows, count, chosen))
+    if (!all_below(chosen, count, rows->count))
         return BDA_OUT_OF_RANGE;
     for (int64_t at = 0; at < count; at++)
         put_limits(rows, chosen[at], limits + at, count, signs);
@@ -330,7 +321,7 @@ int bda_expect(const bda_bullet_rows *rows, int64_t count, const int64_t *chosen
 int bda_soften(const bda_bullet_rows *rows, int64_t count, const int64_t *chosen, double correction,
                const double *softness, int64_t flags)
 {
-    if (!are_rows(rows, count, chosen))
+    if (!all_below(chosen, count, rows->count))
         return BDA_OUT_OF_RANGE;
     for (int64_t at = 0; at < count; at++) {
         double own[6];
@@ -345,7 +336,7 @@ int bda_soften(const bda_bullet_rows *rows, int64_t count, const int64_t *chosen
 int bda_put_frames(const bda_bullet_rows *rows, int64_t frame, int64_t count, const int64_t *chosen, const double *axes,
                    const double *points)
 {
-    if (!are_rows(rows, count, chosen))
+    if (!all_below(chosen, count, rows->count))
         return BDA_OUT_OF_RANGE;
     for (int64_t at = 0; at < count; at++)
         put_frame(rows->addresses[chosen[at]] + (uint64_t)frame, axes + at, points + at, count);
@@ -357,7 +348,7 @@ int bda_put_cracks(const bda_bullet_rows *rows, const bda_expected_cracks *e, co
                    const int64_t *chosen, const uint8_t *exists)
 {
     static const double SIGNS[6] = {1.0, 1.0, 1.0, -1.0, -1.0, -1.0}; /* Bullet takes rotations the other way */
-    if (!are_rows(rows, count, chosen))
+    if (!all_below(chosen, count, rows->count))
         return BDA_OUT_OF_RANGE;
     for (int64_t at = 0; at < count; at++) {
         uint64_t address = rows->addresses[chosen[at]];

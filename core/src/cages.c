@@ -20,16 +20,11 @@ static double share_of_hinges(double bared, double folded, double arm)
 static int find_bars(const bda_cages *c, const bda_places *p, int64_t row, standing_bars *bars)
 {
     int64_t one = c->first[row], other = c->second[row];
-    double anchor[3];
     if (one < 0 || one >= p->count || other < 0 || other >= p->count)
         return BDA_OUT_OF_RANGE;
-    vector_at(c->first_anchors, c->count, row, anchor);
-    turned_at(p->rotations, p->count, one, anchor, bars->first_arm);
-    vector_at(c->second_anchors, c->count, row, anchor);
-    turned_at(p->rotations, p->count, other, anchor, bars->second_arm);
-    for (int axis = 0; axis < 3; axis++)
-        bars->line[axis] = p->positions[axis * p->count + other] + bars->second_arm[axis] -
-                           p->positions[axis * p->count + one] - bars->first_arm[axis];
+    lever_at(p->rotations, p->count, one, c->first_anchors, c->count, row, bars->first_arm);
+    lever_at(p->rotations, p->count, other, c->second_anchors, c->count, row, bars->second_arm);
+    line_between(p, one, other, bars->first_arm, bars->second_arm, bars->line);
     bars->length = sqrt(dot3(bars->line, bars->line));
     double folded = c->stays[row] < 0.0 ? -c->stays[row] : 0.0;
     double resists = share_of_hinges(c->bared[row], folded, c->arms[row]) * c->squash[row];
@@ -52,8 +47,7 @@ int bda_cages_settle(const bda_cages *c, const bda_places *p)
 {
     for (int64_t row = 0; row < c->count; row++) {
         standing_bars bars;
-        if (find_bars(c, p, row, &bars) != BDA_DONE)
-            return BDA_OUT_OF_RANGE;
+        TRY(find_bars(c, p, row, &bars));
         double force = force_of(c, row, &bars);
         c->pressed[row] = larger(c->pressed[row], -force);
         if (c->holds[row])
@@ -69,8 +63,7 @@ int bda_cages_forces(const bda_cages *c, const bda_places *p, double *forces)
 {
     for (int64_t row = 0; row < c->count; row++) {
         standing_bars bars;
-        if (find_bars(c, p, row, &bars) != BDA_DONE)
-            return BDA_OUT_OF_RANGE;
+        TRY(find_bars(c, p, row, &bars));
         forces[row] = force_of(c, row, &bars);
     }
     return BDA_DONE;

@@ -8,15 +8,8 @@
 
 static int are_in_range(const bda_cracks *c, int64_t bodies)
 {
-    if (c->count < 0)
-        return 0;
-    for (int64_t at = 0; at < c->count; at++)
-        if (c->rows[at] < 0 || c->rows[at] >= c->connections)
-            return 0;
-    for (int64_t at = 0; at < CORNERS * c->count; at++)
-        if (c->first[at] < 0 || c->first[at] >= bodies || c->second[at] < 0 || c->second[at] >= bodies)
-            return 0;
-    return 1;
+    return c->count >= 0 && all_below(c->rows, c->count, c->connections) &&
+           all_below(c->first, CORNERS * c->count, bodies) && all_below(c->second, CORNERS * c->count, bodies);
 }
 
 /* Bars at a corner, all of them, also those that have ruptured. */
@@ -71,8 +64,7 @@ static void gap_at(const bda_cracks *c, const bda_places *p, int64_t at, double 
     double one[3], other[3];
     anchor_at(p, c->first[at], c->first_anchors, CORNERS * c->count, at, one);
     anchor_at(p, c->second[at], c->second_anchors, CORNERS * c->count, at, other);
-    for (int axis = 0; axis < 3; axis++)
-        world[axis] = other[axis] - one[axis];
+    subtract3(other, one, world);
     turned_back_at(p->rotations, p->count, c->first[at], world, gap);
 }
 
@@ -173,8 +165,7 @@ static void add_corner(const bda_cracks *c, const bda_places *p, int64_t at, cra
         moved[axis] = after[axis] - slip[axis], state->force[axis] += across[axis];
     state->yielding += dot3(pull, moved);
     slip_of_bar(&rub, rest, after);
-    for (int axis = 0; axis < 3; axis++)
-        moved[axis] = after[axis] - rest[axis];
+    subtract3(after, rest, moved);
     state->rubbing += dot3(rubbing, moved);
     double wide = bars.yields > 0.0 && c->holds[at] ? sqrt(dot3(gap, gap)) : 0.0, used = wide / opening;
     double share = bars.yields > 0.0 ? sqrt(dot3(pull, pull)) / bars.yields : 0.0;
@@ -230,14 +221,10 @@ int begin_cracks(const bda_cracks *c, const bda_places *p, const bda_term *t)
     for (int64_t row = 0; row < count; row++) {
         int64_t crack = t->chosen[row % t->connections];
         int64_t at = row / t->connections * c->count + crack, one = c->first[at], other = c->second[at];
-        double anchor[3], first_lever[3], second_lever[3], gap[3], arm[3];
-        vector_at(c->first_anchors, all, at, anchor);
-        turned_at(p->rotations, p->count, one, anchor, first_lever);
-        vector_at(c->second_anchors, all, at, anchor);
-        turned_at(p->rotations, p->count, other, anchor, second_lever);
-        for (int axis = 0; axis < 3; axis++)
-            gap[axis] = p->positions[axis * p->count + other] + second_lever[axis] -
-                        p->positions[axis * p->count + one] - first_lever[axis];
+        double first_lever[3], second_lever[3], gap[3], arm[3];
+        lever_at(p->rotations, p->count, one, c->first_anchors, all, at, first_lever);
+        lever_at(p->rotations, p->count, other, c->second_anchors, all, at, second_lever);
+        line_between(p, one, other, first_lever, second_lever, gap);
         put_vector(t->widths, count, row, gap);
         for (int axis = 0; axis < 3; axis++)
             arm[axis] = first_lever[axis] + 0.5 * gap[axis];
@@ -280,8 +267,7 @@ static void axes_of_crack(const bda_term *t, int64_t crack, double axes[3][3])
     vector_at(t->normals, t->gaps, crack, axes[0]);
     vector_at(t->first_arms, t->gaps, crack, one);
     vector_at(t->first_arms, t->gaps, crack + 2 * t->connections, other);
-    for (int axis = 0; axis < 3; axis++)
-        axes[1][axis] = other[axis] - one[axis];
+    subtract3(other, one, axes[1]);
     double across = dot3(axes[1], axes[0]);
     for (int axis = 0; axis < 3; axis++)
         axes[1][axis] = axes[1][axis] - across * axes[0][axis];
@@ -324,8 +310,7 @@ static void find_joint(const bda_term *t, int64_t crack, crack_joint *joint)
     }
     for (int corner = 0; corner < CORNERS; corner++) {
         vector_at(t->first_arms, t->gaps, crack + corner * count, arm);
-        for (int axis = 0; axis < 3; axis++)
-            arm[axis] = arm[axis] - joint->first_arm[axis];
+        subtract3(arm, joint->first_arm, arm);
         for (int axis = 0; axis < 3; axis++) {
             cross3(joint->axes[axis], arm, moved);
             joint->stiffness[axis] += stiffness_along(t, crack + corner * count, joint->axes[axis]);

@@ -56,12 +56,21 @@ static void axes_at(const double *rotations, int64_t bodies, int64_t body, const
 }
 
 /* From the centre of a body to one of m points (3, m) of it, in the world. */
-static void lever_at(const double *rotations, int64_t bodies, int64_t body, const double *points, int64_t count,
+void lever_at(const double *rotations, int64_t bodies, int64_t body, const double *points, int64_t count,
                      int64_t row, double lever[3])
 {
     double point[3];
     vector_at(points, count, row, point);
     turned_at(rotations, bodies, body, point, lever);
+}
+
+/* From a point of a body to one of another, at levers from their centres. */
+void line_between(const bda_places *p, int64_t one, int64_t other, const double lever[3], const double other_lever[3],
+                  double line[3])
+{
+    for (int axis = 0; axis < 3; axis++)
+        line[axis] = p->positions[axis * p->count + other] + other_lever[axis] - p->positions[axis * p->count + one] -
+                     lever[axis];
 }
 
 /* Write deformations, of (6, m), of chosen connections (k,). */
@@ -93,13 +102,6 @@ int bda_deformations(const bda_frames *f, const bda_places *p, int64_t count, co
     return BDA_DONE;
 }
 
-static void unit_of(const double vector[3], double unit[3])
-{
-    double size = sqrt(dot3(vector, vector));
-    for (int axis = 0; axis < 3; axis++)
-        unit[axis] = size > 0.0 ? vector[axis] / size : 0.0;
-}
-
 /* Rows of a connection with bodies at their places. */
 void rows_of_joint(const bda_frames *f, const bda_places *p, int64_t row, joint_rows *rows)
 {
@@ -116,9 +118,9 @@ void rows_of_joint(const bda_frames *f, const bda_places *p, int64_t row, joint_
     cross3(rows->along[2], other[0], y);
     cross3(y, rows->along[2], to_z);
     cross3(other[0], y, to_x);
-    unit_of(to_z, rows->turning[0]);
-    unit_of(y, rows->turning[1]);
-    unit_of(to_x, rows->turning[2]);
+    unit_of(to_z, sqrt(dot3(to_z, to_z)), rows->turning[0]);
+    unit_of(y, sqrt(dot3(y, y)), rows->turning[1]);
+    unit_of(to_x, sqrt(dot3(to_x, to_x)), rows->turning[2]);
 }
 
 /* Rates (6,) by velocities and angular velocities (6,) of both bodies. */

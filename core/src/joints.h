@@ -41,6 +41,10 @@ BDA_API int bda_velocities_alone(int64_t bodies, const double *velocities, const
                                  const double *inverse_masses, const double *inverse_inertias, const double *loads,
                                  double substep_s, double *alone);
 
+void lever_at(const double *rotations, int64_t bodies, int64_t body, const double *points, int64_t count, int64_t row,
+              double lever[3]);
+void line_between(const bda_places *places, int64_t one, int64_t other, const double lever[3],
+                  const double other_lever[3], double line[3]);
 void rows_of_joint(const bda_frames *frames, const bda_places *places, int64_t row, joint_rows *rows);
 void blocks_of_joint(const joint_rows *rows, const double *stiffness, int64_t stride, double implicit_s2,
                      blocks_of_connection *blocks);

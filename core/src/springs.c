@@ -31,8 +31,7 @@ int bda_spring_gaps(const bda_spring_places *s, const bda_places *p, double *gap
 {
     for (int64_t row = 0; row < s->count; row++) {
         double gap[3], arm[3], other[3];
-        if (gap_of_spring(s, p, row, gap, arm, other) != BDA_DONE)
-            return BDA_OUT_OF_RANGE;
+        TRY(gap_of_spring(s, p, row, gap, arm, other));
         put_vector(gaps, s->count, row, gap);
         put_vector(arms_above, s->count, row, arm);
         put_vector(arms_below, s->count, row, other);
@@ -54,6 +53,13 @@ int bda_springs_resisted(const bda_spring_law *s, const double *gaps, double *fo
     return BDA_DONE;
 }
 
+/* Part of the gap of a spring beyond where it resists nothing. */
+static void load_gap(const bda_springs *s, int64_t spring, const double gap[3], double loaded[3])
+{
+    for (int axis = 0; axis < 3; axis++)
+        loaded[axis] = gap[axis] - s->free[axis * s->at->count + spring];
+}
+
 /* Whether springs are of connections that there are. */
 static int are_springs(const bda_springs *s)
 {
@@ -68,10 +74,8 @@ int begin_springs(const bda_springs *s, const bda_places *p, const bda_term *t)
     for (int64_t row = 0; row < t->gaps; row++) {
         int64_t spring = t->which[row];
         double gap[3], arm[3], arm_below[3];
-        if (gap_of_spring(s->at, p, spring, gap, arm, arm_below) != BDA_DONE)
-            return BDA_OUT_OF_RANGE;
-        for (int axis = 0; axis < 3; axis++)
-            gap[axis] = gap[axis] - s->free[axis * s->at->count + spring];
+        TRY(gap_of_spring(s->at, p, spring, gap, arm, arm_below));
+        load_gap(s, spring, gap, gap);
         put_vector(t->widths, t->gaps, row, gap);
         put_vector(t->first_arms, t->gaps, row, arm_below);
         put_vector(t->second_arms, t->gaps, row, arm);
@@ -90,10 +94,8 @@ int bda_springs_energy(const bda_springs *s, const bda_places *p, double *energi
     memset(energies, 0, (size_t)s->connections * sizeof *energies);
     for (int64_t row = 0; row < n; row++) {
         double gap[3], arm[3], other[3], force[3], tangent[3][3], doubled = 0.0;
-        if (gap_of_spring(s->at, p, row, gap, arm, other) != BDA_DONE)
-            return BDA_OUT_OF_RANGE;
-        for (int axis = 0; axis < 3; axis++)
-            gap[axis] = gap[axis] - s->free[axis * n + row];
+        TRY(gap_of_spring(s->at, p, row, gap, arm, other));
+        load_gap(s, row, gap, gap);
         force_of_spring(law, row, gap, force, tangent);
         for (int axis = 0; axis < 3; axis++) {
             double stiffness = axis < 2 ? law->sideways[axis * n + row] : law->vertical[row];
@@ -126,13 +128,11 @@ int bda_soil_settle(const bda_springs *s, const bda_places *p)
         return BDA_OUT_OF_RANGE;
     for (int64_t row = 0; row < n; row++) {
         double gap[3], arm[3], other[3], force[3], tangent[3][3], loaded[3];
-        if (gap_of_spring(s->at, p, row, gap, arm, other) != BDA_DONE)
-            return BDA_OUT_OF_RANGE;
+        TRY(gap_of_spring(s->at, p, row, gap, arm, other));
         double settled = gap[2] + law->capacity[row] / law->vertical[row];
         if (settled < s->free[2 * n + row])
             s->free[2 * n + row] = settled;
-        for (int axis = 0; axis < 3; axis++)
-            loaded[axis] = gap[axis] - s->free[axis * n + row];
+        load_gap(s, row, gap, loaded);
         s->holding[row] = ANY;
         force_of_spring(law, row, loaded, force, tangent);
         s->holding[row] = force[2];
@@ -202,8 +202,7 @@ int bda_pads_settle(const bda_springs *s, const bda_pads *b, const bda_places *p
         for (; spring < n && s->of[spring] == row; spring++) {
             double gap[3], arm[3], other[3], loaded[3], force[3], tangent[3][3];
             gap_of_spring(s->at, p, spring, gap, arm, other);
-            for (int axis = 0; axis < 3; axis++)
-                loaded[axis] = gap[axis] - s->free[axis * n + spring];
+            load_gap(s, spring, gap, loaded);
             force_of_spring(law, spring, loaded, force, tangent);
             int slides = !isinf(law->friction[spring]) || (!law->pulls[spring] && s->holding[spring] <= 0.0);
             for (int axis = 0; slides && axis < 2; axis++) {

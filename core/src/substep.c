@@ -67,9 +67,8 @@ static int are_parts(const bda_substep *s)
         if (count < 0 || (s->awake[part] && (!s->equations[part] || bodies_of_equations(s->equations[part]) != count)))
             return 0;
     }
-    for (int64_t at = 0; at < last; at++)
-        if (s->part_bodies[at] < 0 || s->part_bodies[at] >= n)
-            return 0;
+    if (!all_below(s->part_bodies, last, n))
+        return 0;
     for (int64_t body = 0; body < n; body++)
         if (s->part_of_body[body] < -1 || s->part_of_body[body] >= s->parts)
             return 0;
@@ -85,26 +84,20 @@ static int is_in_range(const bda_substep *s)
     int64_t n = s->places->count, all = s->frames->count + s->bars;
     if (!are_parts(s))
         return 0;
-    for (int64_t row = 0; row < s->frames->count; row++)
-        if (s->frames->first[row] < 0 || s->frames->first[row] >= n || s->frames->second[row] < 0 ||
-            s->frames->second[row] >= n)
-            return 0;
-    for (int64_t at = 0; at < s->acting_count; at++)
-        if (s->acting[at] < 0 || s->acting[at] >= s->frames->count || (at && s->acting[at] <= s->acting[at - 1]))
+    if (!all_below(s->frames->first, s->frames->count, n) || !all_below(s->frames->second, s->frames->count, n) ||
+        !all_below(s->acting, s->acting_count, s->frames->count))
+        return 0;
+    for (int64_t at = 1; at < s->acting_count; at++)
+        if (s->acting[at] <= s->acting[at - 1])
             return 0;
     for (int64_t number = 0; number < s->term_count; number++) {
-        const bda_term *t = s->terms[number];
-        if (t->kind < CRACKS || t->kind > BARE_BARS || (t->kind == CRACKS && t->gaps != CORNERS * t->connections) ||
-            (t->kind == BARE_BARS && t->gaps != t->connections))
+        const bda_term *t = s->terms[number]; /* whose number of gaps its law has seen */
+        if (!all_below(t->numbers, t->connections, all) || !all_below(t->of_gap, t->gaps, t->connections) ||
+            !all_below(t->which, t->gaps, t->all_gaps) || !all_below(t->first, t->gaps, n) ||
+            !all_below(t->second, t->gaps, n))
             return 0;
-        for (int64_t at = 0; at < t->connections; at++)
-            if (t->numbers[at] < 0 || t->numbers[at] >= all)
-                return 0;
-        for (int64_t row = 0; row < t->gaps; row++)
-            if (t->of_gap[row] < 0 || t->of_gap[row] >= t->connections || t->which[row] < 0 ||
-                t->which[row] >= t->all_gaps || t->first[row] < 0 || t->first[row] >= n || t->second[row] < 0 ||
-                t->second[row] >= n || (t->kind == CRACKS && t->of_gap[row] != row % t->connections) ||
-                (t->kind == SPRINGS && row && t->of_gap[row] < t->of_gap[row - 1]))
+        for (int64_t row = 1; row < t->gaps && t->kind == SPRINGS; row++)
+            if (t->of_gap[row] < t->of_gap[row - 1])
                 return 0;
     }
     return 1;
@@ -332,8 +325,8 @@ static double strain_of(const bda_substep *s, int axis, int64_t at)
     return s->deformations[place] - s->offsets[place];
 }
 
-/* Find rates and impulses of connections as if no body was slowed down, and the sums of these. */
-static void begin_impulses(work *w)
+/* Add to rates and impulses of connections what they resist of a motion (6, n), and of their strains in a time. */
+static void add_impulses(work *w, const double *motion, double strained_s)
 {
     bda_substep *s = w->s;
     int64_t n = s->places->count, k = s->acting_count;
@@ -341,48 +334,21 @@ static void begin_impulses(work *w)
         int64_t row = s->acting[at];
         double first[6], second[6], rates[6], strains[6], amounts[6], of_first[6], of_second[6];
         double implicit = s->substep_s * (s->substep_s + s->damping_s[row]);
-        motion_of(s->velocities, n, s->frames->first[row], first);
-        motion_of(s->velocities, n, s->frames->second[row], second);
+        motion_of(motion, n, s->frames->first[row], first);
+        motion_of(motion, n, s->frames->second[row], second);
         rates_of_joint(s->rows + row, first, second, rates);
         for (int axis = 0; axis < 6; axis++)
-            strains[axis] = s->substep_s * strain_of(s, axis, at) - implicit * rates[axis];
+            strains[axis] = strained_s * strain_of(s, axis, at) - implicit * rates[axis];
         stressed(s->stiffness + row, s->frames->count, strains, amounts);
+        for (int axis = 0; axis < 6; axis++)
+            amounts[axis] = w->amounts[axis * k + at] += amounts[axis];
         loads_of_joint(s->rows + row, amounts, of_first, of_second);
         for (int axis = 0; axis < 6; axis++) {
-            s->rates[axis * k + at] = rates[axis];
-            w->amounts[axis * k + at] = amounts[axis];
+            s->rates[axis * k + at] += rates[axis];
             s->of_first[axis * k + at] = of_first[axis];
             s->of_second[axis * k + at] = of_second[axis];
         }
     }
-    add_on_bodies(s, w->loads);
-}
-
-/* Take off what the changes (6, n) of velocities do to rates and impulses. */
-static void slow_down(work *w)
-{
-    bda_substep *s = w->s;
-    int64_t n = s->places->count, k = s->acting_count;
-    for (int64_t at = 0; at < k; at++) {
-        int64_t row = s->acting[at];
-        double first[6], second[6], rates[6], strains[6], amounts[6], of_first[6], of_second[6];
-        double implicit = s->substep_s * (s->substep_s + s->damping_s[row]);
-        motion_of(w->changes, n, s->frames->first[row], first);
-        motion_of(w->changes, n, s->frames->second[row], second);
-        rates_of_joint(s->rows + row, first, second, rates);
-        for (int axis = 0; axis < 6; axis++)
-            strains[axis] = implicit * rates[axis];
-        stressed(s->stiffness + row, s->frames->count, strains, amounts);
-        for (int axis = 0; axis < 6; axis++)
-            amounts[axis] = w->amounts[axis * k + at] - amounts[axis];
-        loads_of_joint(s->rows + row, amounts, of_first, of_second);
-        for (int axis = 0; axis < 6; axis++) {
-            s->rates[axis * k + at] = s->rates[axis * k + at] + rates[axis];
-            s->of_first[axis * k + at] = of_first[axis];
-            s->of_second[axis * k + at] = of_second[axis];
-        }
-    }
-    add_on_bodies(s, s->of_bodies);
 }
 
 /* Solve the equations of the parts that are open and awake: changes of velocities by the impulses, with those of all terms. */
@@ -530,7 +496,9 @@ int bda_solve_substep(bda_substep *s)
         answer = refresh(&w);
     }
     if (answer == BDA_DONE) {
-        begin_impulses(&w);
+        memset(s->rates, 0, (size_t)(6 * s->acting_count) * sizeof *s->rates);
+        add_impulses(&w, s->velocities, s->substep_s);
+        add_on_bodies(s, w.loads);
         solve(&w);
     }
     for (; answer == BDA_DONE && s->term_count && s->guesses < s->most_guesses; s->guesses++) {
@@ -546,7 +514,8 @@ int bda_solve_substep(bda_substep *s)
     if (answer == BDA_DONE) {
         for (int64_t number = 0; number < s->term_count && s->most_guesses; number++)
             remember(w.all.terms + number);
-        slow_down(&w);
+        add_impulses(&w, w.changes, 0.0);
+        add_on_bodies(s, s->of_bodies);
         add_terms(&w);
         answer = are_found(s) ? BDA_DONE : BDA_NOT_FINITE;
     }

@@ -51,12 +51,6 @@ static void force_of_crack(const bda_term *t, int64_t row, const bar_force *bar,
         force[axis] = pull[axis] + rub->share * rub->trial[axis] + pressing * normal[axis];
 }
 
-static void unit_of(const double vector[3], double size, double unit[3])
-{
-    for (int axis = 0; axis < 3; axis++)
-        unit[axis] = size > 0.0 ? vector[axis] / size : 0.0;
-}
-
 /* Force across the gap of a crack, and how it grows with the gap. */
 static void linear_crack(const bda_term *t, int64_t row, const double gap[3], double force[3], double tangent[3][3])
 {
@@ -381,44 +375,33 @@ typedef struct {
     double about_first[3][3], about_second[3][3], about_both[3][3];
 } sums_of_gaps;
 
-static void column_of(double matrix[3][3], int column, double vector[3])
+/* Add the moment of a column of a matrix about an arm to that of sums. */
+static void add_moment(double sums[3][3], const double arm[3], double matrix[3][3], int column)
 {
+    double product[3], forces[3] = {matrix[0][column], matrix[1][column], matrix[2][column]};
+    cross3(arm, forces, product);
     for (int axis = 0; axis < 3; axis++)
-        vector[axis] = matrix[axis][column];
+        sums[axis][column] += product[axis];
 }
 
 static void add_gap(sums_of_gaps *s, double tangent[3][3], const double first_arm[3], const double second_arm[3])
 {
-    double turning_first[3][3], turning_second[3][3], column[3], product[3];
+    double turning_first[3][3], turning_second[3][3];
     for (int axis = 0; axis < 3; axis++) {
         cross3(first_arm, tangent[axis], turning_first[axis]);
         cross3(second_arm, tangent[axis], turning_second[axis]);
-    }
-    for (int axis = 0; axis < 3; axis++)
         for (int other = 0; other < 3; other++) {
             s->pushed[axis][other] += tangent[axis][other];
             s->turning_first[axis][other] += turning_first[axis][other];
             s->turning_second[axis][other] += turning_second[axis][other];
         }
-    for (int other = 0; other < 3; other++) {
-        column_of(tangent, other, column);
-        cross3(first_arm, column, product);
-        for (int axis = 0; axis < 3; axis++)
-            s->moments_first[axis][other] += product[axis];
-        cross3(second_arm, column, product);
-        for (int axis = 0; axis < 3; axis++)
-            s->moments_second[axis][other] += product[axis];
-        column_of(turning_first, other, column);
-        cross3(first_arm, column, product);
-        for (int axis = 0; axis < 3; axis++)
-            s->about_first[axis][other] += product[axis];
-        column_of(turning_second, other, column);
-        cross3(second_arm, column, product);
-        for (int axis = 0; axis < 3; axis++)
-            s->about_second[axis][other] += product[axis];
-        cross3(first_arm, column, product);
-        for (int axis = 0; axis < 3; axis++)
-            s->about_both[axis][other] += product[axis];
+    }
+    for (int column = 0; column < 3; column++) {
+        add_moment(s->moments_first, first_arm, tangent, column);
+        add_moment(s->moments_second, second_arm, tangent, column);
+        add_moment(s->about_first, first_arm, turning_first, column);
+        add_moment(s->about_second, second_arm, turning_second, column);
+        add_moment(s->about_both, first_arm, turning_second, column);
     }
 }
 

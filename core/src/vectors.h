@@ -8,9 +8,18 @@
 #ifndef BDA_VECTORS_H
 #define BDA_VECTORS_H
 
+#include <math.h>
 #include <stdint.h>
 
 enum { BDA_DONE = 0, BDA_NO_MEMORY = 1, BDA_OUT_OF_RANGE = 2, BDA_NOT_FINITE = 3 };
+
+/* End a function with the answer of another that could not do what it was asked for. */
+#define TRY(call)                                                                                                      \
+    do {                                                                                                               \
+        int answer_of_call = (call);                                                                                   \
+        if (answer_of_call != BDA_DONE)                                                                                \
+            return answer_of_call;                                                                                     \
+    } while (0)
 
 /* Quantity that is not finite, and the body or connection that it is of. */
 typedef struct {
@@ -50,6 +59,18 @@ static inline double larger(double one, double other)
 static inline double dot3(const double a[3], const double b[3])
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static inline void unit_of(const double vector[3], double size, double unit[3])
+{
+    for (int axis = 0; axis < 3; axis++)
+        unit[axis] = size > 0.0 ? vector[axis] / size : 0.0;
+}
+
+static inline void subtract3(const double a[3], const double b[3], double difference[3])
+{
+    for (int axis = 0; axis < 3; axis++)
+        difference[axis] = a[axis] - b[axis];
 }
 
 static inline void cross3(const double a[3], const double b[3], double product[3])
