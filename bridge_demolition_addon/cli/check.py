@@ -12,6 +12,7 @@ from ..model.bridge.preparation import prepared_members
 from ..model.reinforcement.design import bar_schedule
 from ..model.reinforcement.schedule import schedule_facts
 from ..model.results.moving import moving_text
+from ..model.results.stability import ZoneLoad
 from ..model.scenario import BlastZone, Charge, Scenario
 from ..model.scenario.contact_facts import contact_facts
 from ..model.scenario.file import read_scenario
@@ -40,7 +41,6 @@ from ..model.structure.firing_order import firing_facts
 from ..model.structure.model import Model, build_model
 from ..model.structure.steel_bars import steel_facts
 from ..model.structure.tendons import tendon_facts
-from ..model.structure.zone_loads import ZoneLoad
 from ..model.terrain.built import terrain_facts
 from ..studies.estimate import (
     FACTOR,
@@ -197,7 +197,8 @@ def _cost_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
 def _awake_facts(scenario: Scenario) -> Iterator[Fact]:
     """Run a bridge alone and awake, and yield whether it stood."""
     summary = simulation_module("motion_run", one_thread=True).left_alone_run(scenario)
-    fall, moving = self_collapse_text(summary), moving_text(summary)
+    fall = self_collapse_text(summary.fell_by_itself)
+    moving = moving_text(summary.moving_at_end, summary.came_to_rest_s)
     if fall or moving:
         yield "comes down", fall or moving
         if fall and moving:

@@ -3,27 +3,24 @@
 import argparse
 import os
 import sys
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, nullcontext
 from pathlib import Path
-from typing import Any
 
 from ..engineering.unit_systems import UnitSystem
 from ..engineering.units import kilonewtons
 from ..errors import Faults, OutputError
 from ..model.reinforcement.concrete_members import plain_concrete_text
 from ..model.results.arrays import SHORT
-from ..model.results.collapse import ConnectionCounts
-from ..model.results.extremes import bars_text
 from ..model.results.moving import creep_text
-from ..model.results.summary import first_hit_s
 from ..model.run_folder.files import RESULT_FILES, remove_report
 from ..model.run_folder.folder import check_folder, numbered_folder
+from ..model.run_folder.summary import RunSummary
 from ..model.scenario import Scenario
 from ..model.scenario.file import read_scenario
+from ..model.schema import given
 from ..model.sequence.checked_model import checked_model
 from ..model.sequence.ending import doubts_of_run, first_doubts, unusable_texts
-from ..model.stages.stability import stability_texts
 from ..model.structure.model import Model
 from ..report.languages.translation import ENGLISH, Translation
 from ..system.progress import Progress
@@ -143,7 +140,7 @@ def _run_and_report(
     plain = plain_concrete_text(scenario)
     is_rendered = arguments.film or not arguments.no_pictures
     with naming(path):
-        summary = simulation_module("run", one_thread=not is_rendered).run_scenario(
+        values = simulation_module("run", one_thread=not is_rendered).run_scenario(
             scenario,
             output,
             model=model,
@@ -152,6 +149,7 @@ def _run_and_report(
             film=arguments.film,
             progress=progress,
         )
+    summary = RunSummary.of(values)
     report = _report([output], None, arguments, progress) if arguments.report else []
     if arguments.quiet:
         for text in unusable_texts(summary):
@@ -162,10 +160,11 @@ def _run_and_report(
         _print_results(summary, output, report, plain, Translation.into(ENGLISH, system))
 
 
-def run_with_everything(scenario: Scenario, output: Path, progress: Progress, *, quiet: bool) -> Mapping[str, Any]:
+def run_with_everything(scenario: Scenario, output: Path, progress: Progress, *, quiet: bool) -> RunSummary:
     """Run a scenario in place of what is in a folder, keep all but films, and return its summary."""
     with _blender_silenced() if quiet else nullcontext():
-        return simulation_module("run").run_scenario(scenario, output, overwrite=True, pictures=True, progress=progress)
+        run_scenario = simulation_module("run").run_scenario
+        return RunSummary.of(run_scenario(scenario, output, overwrite=True, pictures=True, progress=progress))
 
 
 @contextmanager
@@ -192,12 +191,12 @@ def _report(
 
 
 def _print_results(
-    summary: Mapping[str, Any], output: Path, report: Sequence[Path], plain: str, translation: Translation
+    summary: RunSummary, output: Path, report: Sequence[Path], plain: str, translation: Translation
 ) -> None:
     print()
     first = first_doubts(summary)
     others = doubts_of_run(summary)[len(first) :]
-    for doubt in (*first, plain, *stability_texts(summary), *others):
+    for doubt in (*first, plain, *(summary.stability.texts if summary.stability else ()), *others):
         if doubt:
             print(f"{translation.text(doubt)}.\n")
     for name, value in _result_facts(summary):
@@ -213,47 +212,46 @@ def _print_paths(paths: Sequence[Path]) -> None:
         print(path)
 
 
-def _result_facts(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
-    force = summary["largest_resultant"]
-    if not summary.get("only_motion_because"):
-        yield "connections", ConnectionCounts.of_summary(summary).text
-    if bars := bars_text(summary):
-        yield "reinforcement", bars
-    if force:
-        largest = Quantity(kilonewtons(force["force_N"]), "kN")
-        position = f"the resultant on {force['body']} at {force['time_s']:.3f} s"
+def _result_facts(summary: RunSummary) -> Iterator[tuple[str, str]]:
+    if not summary.only_motion_because:
+        yield "connections", summary.counts.text
+    if bars := summary.reinforcement:
+        yield "reinforcement", bars.text
+    if force := summary.largest_resultant:
+        largest = Quantity(kilonewtons(force.force_n), "kN")
+        position = f"the resultant on {force.body} at {force.time_s:.3f} s"
         yield "largest load on a shard", Text("{}, {}", largest, position)
-    if impact := summary["impact"]:
-        yield "impact of the ball", f"{first_hit_s(summary):.3f} s, frame {impact['frame']}"
-    creeping = creep_text(summary)
-    if summary["came_to_rest_s"] is not None:
+    if impact := summary.impact:
+        yield "impact of the ball", f"{summary.first_hit_s:.3f} s, frame {impact.frame}"
+    creeping = creep_text(summary.creeping)
+    if summary.came_to_rest_s is not None:
         but_for = ", but for what creeps" if creeping else ""
-        yield "everything rests from", f"{summary['came_to_rest_s']:.3f} s{but_for}"
+        yield "everything rests from", f"{summary.came_to_rest_s:.3f} s{but_for}"
     if creeping:
         yield "creeping", creeping
-    if moving := summary["moving_at_end"]:
+    if moving := summary.moving_at_end:
         yield (
             "still moving",
             Text(
                 "{} of {} shards, at up to {}",
-                moving["shards"],
-                moving["of_shards"],
-                Quantity(moving["fastest_m_s"], "m/s", ".1f"),
+                moving.shards,
+                moving.of_shards,
+                Quantity(moving.fastest_m_s, "m/s", ".1f"),
             ),
         )
-    if throw := summary["largest_throw"]:
+    if throw := summary.largest_throw:
         so_far = ", not final: shards still moved" if moving else ""
-        yield "largest throw", Text("{}, {}{}", distance_to_keep(throw["throw_m"], ".2f"), throw["body"], so_far)
-    if energy := summary["energy"]:
-        made = energy["made_by_solver"]
-        share = f"{made['share_of_dissipated']:.1%} of the dissipated energy"
-        if by_bars_j := energy["dissipated_by_bars_J"]:
-            works = (Quantity(work_j / 1000.0, "kJ", ".1f") for work_j in (by_bars_j, energy["dissipated_J"]))
+        yield "largest throw", Text("{}, {}{}", distance_to_keep(throw.throw_m, ".2f"), throw.body, so_far)
+    if energy := summary.energy:
+        made = energy.made_by_solver
+        share = f"{made.share_of_dissipated:.1%} of the dissipated energy"
+        if by_bars_j := energy.dissipated_by_bars_j:
+            works = (Quantity(work_j / 1000.0, "kJ", ".1f") for work_j in (by_bars_j, energy.dissipated_j))
             yield "work of bars", Text("{} of {} dissipated", *works)
-        yield "energy made by solver", Text("{}, {}", Quantity(made["J"] / 1000.0, "kJ", ".1f"), share)
-        if doubtful := energy["doubtful_throws"]:
+        yield "energy made by solver", Text("{}, {}", Quantity(made.j / 1000.0, "kJ", ".1f"), share)
+        if doubtful := energy.doubtful_throws:
             yield "doubtful throws", f"{doubtful} shards, marked in debris_log.csv and summary.json"
-    parts = (f"{name.replace('_', ' ')} {seconds:.1f}" for name, seconds in summary["wall_time_s"].items())
+    parts = (f"{name.replace('_', ' ')} {seconds:.1f}" for name, seconds in given(summary.wall_time_s).items())
     yield "wall time in s", ", ".join(parts)
-    fingerprint = summary["fingerprint"]
+    fingerprint = given(summary.fingerprint)
     yield "fingerprint", f"built {fingerprint['built'][:SHORT]}, result {fingerprint['result'][:SHORT]}"

@@ -13,6 +13,7 @@ from pathlib import Path
 
 from ..errors import OutputError, ScenarioError, SimulationError
 from ..model.ensemble.folder import check_folder, outcome_in, study_in, versions_of
+from ..model.schema import given
 from ..model.sequence.checked_model import checked_model
 from ..model.study.conclusions import holds, proportion_leaving
 from ..model.study.file import AGAIN_FOLDER, RUNS_FOLDER, STUDY_FILE, Study, read_study
@@ -157,7 +158,7 @@ def _repeat(path: Path, number: int, *, quiet: bool) -> None:
         progress.finish()
     if before is None or before.status != DONE:
         return
-    differing = [name for name, digest in before.fingerprint.items() if summary["fingerprint"][name] != digest]
+    differing = [name for name, digest in before.fingerprint.items() if given(summary.fingerprint)[name] != digest]
     if differing:
         raise SimulationError(f"{output}: run {number} has another result than in the study: {differing} differs")
     if not quiet:

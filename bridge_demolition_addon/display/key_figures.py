@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 from manifold3d import CrossSection
@@ -15,7 +13,7 @@ from ..engineering.geometry.vectors import length
 from ..engineering.terrain.recorded import RecordedGround
 from ..model.debris.footprint import corners_at, footprint, straightened
 from ..model.results.arrays import Results
-from ..model.results.collapse import ConnectionCounts, ShardRest, rest_of
+from ..model.results.collapse import ConnectionCounts, Rested, ShardRest, rest_of
 from ..model.results.motion import MOVED_M, relative_to_ground, travel, without_removed
 
 
@@ -147,8 +145,8 @@ class RunFigures:
     Debris is what `debris_of` calls so, but at any frame: shards that are more than `MOVED_M` from where they began.
     """
 
-    def __init__(self, results: Results, summary: Mapping[str, Any] | None = None):
-        self._whole, self._summary = results, summary
+    def __init__(self, results: Results, rested: Rested | None = None):
+        self._whole, self._rested = results, rested
         self._left, _ = without_removed(relative_to_ground(results))
         inventory = self._left.inventory
         self._shards = inventory.of_kind(_SHARD)
@@ -173,7 +171,7 @@ class RunFigures:
     @cached_property
     def rest(self) -> ShardRest:
         """When the shards began to move, and when they came to rest."""
-        return rest_of(self._left, self._summary)
+        return rest_of(self._left, self._rested)
 
     @cached_property
     def largest(self) -> ForceHistory:

@@ -12,15 +12,14 @@ from ..errors import OutputError
 from ..model.debris.exclusion import ExclusionZone
 from ..model.debris.throws import debris_of
 from ..model.results.moving import still_moving_note
+from ..model.results.stability import ZoneLoad
 from ..model.run_folder.files import DXF_FILE, GEOJSON_FILE
 from ..model.scenario.file import scenario_text
 from ..model.sequence.checked_model import checked_model
 from ..model.stages.misfires import misfires
-from ..model.stages.stability import Stability
 from ..model.stages.stages import criticality, stages_of
 from ..model.stages.standing import StandingBridge, made_elastic
 from ..model.stages.tables import write_tables as write_stage_tables
-from ..model.structure.zone_loads import ZoneLoad
 from ..system.progress import Progress
 from ..texts import Text
 from ..version import VERSION
@@ -126,7 +125,7 @@ def run_document(
     if run.scenario:
         sections.append(scenario_section(run, scenario_text(run.scenario)))
     subtitle = Text("Report of a simulated demolition. Bridge Demolition Add-on {}", version)
-    fingerprint = run.summary.values.get("fingerprint") if run.summary else None
+    fingerprint = run.summary.fingerprint if run.summary else None
     control = document_control(run.scenario, fingerprint)
     document = Document(run.title, subtitle, tuple(sections), run_summary(run, debris, flyrock), control)
     return with_plan_contents(document, run.scenario, RUN_TITLE)
@@ -134,8 +133,7 @@ def run_document(
 
 def _zone_loads(run: ReportedRun) -> Sequence[ZoneLoad]:
     """Return what blast zones carried at rest, where the run knew."""
-    stored = run.summary.values.get("stability") if run.summary else None
-    return Stability.of_json(stored).zones if stored else ()
+    return run.summary.stability.zones if run.summary and run.summary.stability else ()
 
 
 def _work_out_stages(run: ReportedRun, target: Path, progress: Progress) -> None:

@@ -14,7 +14,6 @@ import numpy as np
 
 from ..engineering.units import STANDARD_GRAVITY_M_S2
 from ..errors import OutputError, ScenarioError, UnreadableError
-from ..model.changes.bare_bars import bare_bars_text
 from ..model.debris.footprint import check_covers_ground
 from ..model.results.arrays import FRAMES_FILE, RESULTS_FILE, Results, load_results, results_in
 from ..model.results.collapse import ShardRest, rest_of
@@ -29,8 +28,7 @@ from ..model.run_folder.summary import RunSummary, read_summary
 from ..model.scenario import ReportSettings, Scenario
 from ..model.scenario.file import read_scenario
 from ..model.schema import given
-from ..model.sequence.ending import Ending, self_collapse_text, undone_at_end
-from ..model.sequence.lifts import held_parts_text, pick_texts
+from ..model.sequence.ending import Ending, doubts_of_actions, undone_at_end
 from ..system.reading import MEGABYTE, check_file
 from ..texts import Text
 
@@ -63,7 +61,7 @@ class ReportedRun:
     @property
     def rest(self) -> ShardRest:
         """When shards first moved, and when all came to rest: as the run noted it."""
-        return rest_of(self.recorded, self.summary.values if self.summary else None)
+        return rest_of(self.recorded, self.summary.rested if self.summary else None)
 
     @property
     def planned(self) -> Scenario:
@@ -78,7 +76,8 @@ class ReportedRun:
     @property
     def still_moving(self) -> str:
         """What of it still moved at the end, as a sentence without a full stop; empty where all rested."""
-        return moving_text(self._as_recorded)
+        ended = self._as_recorded
+        return moving_text(ended.moving_at_end, ended.came_to_rest_s, completed=ended.completed)
 
     @property
     def ending(self) -> Ending:
@@ -91,23 +90,24 @@ class ReportedRun:
         """What has to be said before any of its results, as sentences without full stops."""
         known = is_known(self.recorded)
         much_made = much_made_text(counted_share(self.recorded), made_share(self.recorded)) if known else ""
-        unusual = (self.summary.values.get("stability") or {}).get("unusual", ()) if self.summary else ()
-        texts = gone_text(self._as_recorded), much_made, self.ending.text, self.still_moving, *unusual
+        unusual = self.summary.stability.unusual if self.summary and self.summary.stability else ()
+        gone = gone_text(self._as_recorded.largest_throw, self._as_recorded.moving_at_end)
+        texts = gone, much_made, self.ending.text, self.still_moving, *unusual
         return tuple(filter(None, texts))
 
     @property
-    def _as_recorded(self) -> dict[str, Any]:
+    def _as_recorded(self) -> RunSummary:
         """How a run that has results ended, by these, its scenario and its summary."""
-        results, summary = self.recorded, self.summary or RunSummary({"completed": not self.is_cut})
-        has_hit = self.ball.impact_s is not None
-        return {
-            "completed": summary.completed,
-            "came_to_rest_s": summary.came_to_rest_s,
-            "simulated_s": float(results.frames.time_s[-1]),
-            "ended_before": self.scenario and undone_at_end(results, self.scenario, has_hit=has_hit),
-            "moving_at_end": moving_summary(results),
-            "largest_throw": largest_throw(without_removed(results)[0]),
-        }
+        results, summary = self.recorded, self.summary or RunSummary(completed=not self.is_cut)
+        has_hit = self.ball.impact is not None
+        return RunSummary(
+            completed=summary.completed,
+            came_to_rest_s=summary.came_to_rest_s,
+            simulated_s=float(results.frames.time_s[-1]),
+            ended_before=undone_at_end(results, self.scenario, has_hit=has_hit) if self.scenario else None,
+            moving_at_end=moving_summary(results),
+            largest_throw=largest_throw(without_removed(results)[0]),
+        )
 
     @property
     def name(self) -> str:
@@ -140,9 +140,7 @@ def read_run(folder: Path) -> ReportedRun:
     results = _results(folder, at_work, shortcomings)
     summary = _summary(folder, shortcomings)
     if summary:
-        values = summary.values
-        doubts = self_collapse_text(values), held_parts_text(values), *pick_texts(values), bare_bars_text(values)
-        shortcomings.extend(Text("{}.", doubt) for doubt in doubts if doubt)
+        shortcomings.extend(Text("{}.", doubt) for doubt in doubts_of_actions(summary))
     if summary and summary.made_by_hand:
         shortcomings.append(
             Text(
@@ -248,11 +246,11 @@ def _summary(folder: Path, shortcomings: list[str]) -> RunSummary | None:
 def _ball(summary: RunSummary | None, results: Results | None, scenario: Scenario | None) -> RunSummary:
     """Return the summary; without one, impact and hits of the ball under standard gravity."""
     if summary or results is None:
-        return summary or RunSummary({})
+        return summary or RunSummary()
     gravity = np.array([0.0, 0.0, -STANDARD_GRAVITY_M_S2])
     contact_time_s = scenario.ball.contact_time_s if scenario and scenario.ball else None
     hits = hits_of_balls(results, gravity, contact_time_s)
-    return RunSummary({"impact": impact_of(results, gravity), "hits_of_the_ball": hits})
+    return RunSummary.of({"impact": impact_of(results, gravity), "hits_of_the_ball": hits})
 
 
 def _log(read: Callable[[Path], Any], folder: Path, shortcomings: list[str]) -> Any:

@@ -47,7 +47,7 @@ def keep_recording(folder: Path, recording: Recording, summary: Mapping[str, Any
     recording.remove_stream()
     for scene in bpy.data.scenes:  # undo replaces scenes; none where it was deleted, or another file was loaded
         if scene.session_uid == recording.scene_uid:
-            _keep_with_scene(scene, recording.build, folder, results, RunSummary(summary))
+            _keep_with_scene(scene, recording.build, folder, results, RunSummary.of(summary))
 
 
 def keep_results(folder: Path, results: Results, summary: Mapping[str, Any]) -> None:
@@ -58,7 +58,7 @@ def keep_results(folder: Path, results: Results, summary: Mapping[str, Any]) -> 
     # is missing or broken, the results are written by now.
     from ..charts.histories import plot_forces
 
-    plot_forces(results, folder / FORCE_CHART, summary["title"], RunSummary(summary).first_hit_s)
+    plot_forces(results, folder / FORCE_CHART, summary["title"], RunSummary.of(summary).first_hit_s)
 
 
 def adopt_run(scene: bpy.types.Scene, folder: Path) -> Results:

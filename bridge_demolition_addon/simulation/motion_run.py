@@ -11,6 +11,7 @@ from typing import Any
 import bpy
 
 from ..model.results.arrays import Results
+from ..model.run_folder.summary import RunSummary
 from ..model.scenario import Scenario
 from ..model.sequence.ending import left_alone
 from ..model.structure.model import Model, build_model
@@ -45,8 +46,8 @@ def motion_run(
         recording.forget()
 
 
-def left_alone_run(scenario: Scenario) -> dict[str, Any]:
+def left_alone_run(scenario: Scenario) -> RunSummary:
     """Return the summary of a run in which nothing is done to the bridge, which is awake; no file of it is kept."""
     alone = left_alone(scenario)
     with TemporaryDirectory(prefix="bda-awake-") as folder, motion_run(alone, build_model(alone), Path(folder)) as run:
-        return run[1]
+        return RunSummary.of(run[1])

@@ -107,7 +107,7 @@ def run_scenario(
             times |= {"blender": playing.seconds - recording.seconds, "recording": recording.seconds}
             times["starting_and_ending"] = lap_s() - playing.seconds
             if recording.only_motion_because:
-                progress.stage(only_motion_text({"only_motion_because": recording.only_motion_because}))
+                progress.stage(only_motion_text(recording.only_motion_because))
             elif recording.rigid_because:
                 progress.stage(f"connections were rigid, as they cannot be elastic here: {recording.rigid_because}")
             is_whole = not (signals or progress.is_stopped or recording.error)

@@ -185,7 +185,7 @@ def _of_scenario(
         "charges": _charges(scenario, recording),
         "settled": settling(results, scenario.connections.warm_up_s),
         "came_to_rest_s": rest.came_to_rest_s,
-        "fell_by_itself": fell_by_itself(results, scenario),
+        "fell_by_itself": (fall := fell_by_itself(results, scenario)) and asdict(fall),
         "plain_concrete": plain_concrete(scenario),
         "touchdown": _touchdown(scenario, results),
         "foundations": settlements(results, scenario.foundations),

@@ -18,6 +18,7 @@ import numpy as np
 from ..errors import OutputError, UnreadableError
 from ..model.results.arrays import LEFT_FILES, RESULTS_FILE, Results, load_results
 from ..model.run_folder.files import BLEND_FILE, FORCE_CHART
+from ..model.run_folder.summary import RunSummary
 from ..model.scenario import Scenario
 from ..model.scenario.file import scenario_from_text
 from ..model.sequence.checked_model import check_actions
@@ -99,7 +100,7 @@ def _whole_run(
 def _evaluated(
     results: Results, summary: Mapping[str, Any], scenario: Scenario, settings: EnsembleSettings, folder: Path
 ) -> dict[str, Any]:
-    evaluation = evaluate(results, summary, scenario, settings.criteria, settings.least_mass_kg)
+    evaluation = evaluate(results, RunSummary.of(summary), scenario, settings.criteria, settings.least_mass_kg)
     with whole_file(folder / OUTLINES_FILE) as part:
         arrays: dict[str, Any] = evaluation.outlines.arrays()
         np.savez_compressed(part, **arrays)

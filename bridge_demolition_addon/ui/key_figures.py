@@ -87,7 +87,7 @@ def run_of(scene: bpy.types.Scene) -> RunFigures | None:
     if key not in _runs:
         forget()
         run = shown_run(scene)
-        _runs[key] = RunFigures(results, run.summary.values if run else None)
+        _runs[key] = RunFigures(results, run.summary.rested if run else None)
     return _runs[key]
 
 

@@ -28,7 +28,7 @@ import numpy as np
 
 from bridge_demolition_addon import read_scenario, run
 from bridge_demolition_addon.model.results.arrays import Results
-from bridge_demolition_addon.model.run_folder.summary import read_summary
+from bridge_demolition_addon.model.run_folder.summary import RunSummary, read_summary
 from bridge_demolition_addon.model.scenario import Scenario
 from bridge_demolition_addon.model.study.outcome import evaluate
 
@@ -160,10 +160,10 @@ shards = {shards}
         path.write_text(text, encoding="utf-8")
         scenario = read_scenario(path)
         results = run(scenario, Path(folder, "run"))
-        return measures(scenario, read_summary(Path(folder, "run")).values, results)
+        return measures(scenario, read_summary(Path(folder, "run")), results)
 
 
-def measures(scenario: Scenario, summary: dict, results: Results) -> dict[str, float]:
+def measures(scenario: Scenario, summary: RunSummary, results: Results) -> dict[str, float]:
     """What is measured in a run."""
     outputs = evaluate(results, summary, scenario).outputs
     fallen = fallen_shares(results)

@@ -31,7 +31,7 @@ from SALib.sample import morris as design
 
 from bridge_demolition_addon import read_scenario, run
 from bridge_demolition_addon.model.results.arrays import Results
-from bridge_demolition_addon.model.run_folder.summary import read_summary
+from bridge_demolition_addon.model.run_folder.summary import RunSummary, read_summary
 from bridge_demolition_addon.model.scenario import Scenario
 from bridge_demolition_addon.model.study.keys import changed, keys_named
 from bridge_demolition_addon.model.study.outcome import evaluate
@@ -70,7 +70,7 @@ class Demolition:
     shards: int
     inputs: tuple[Input, ...]
     outputs: tuple[Quantity, ...]
-    measures: Callable[[Scenario, Mapping, Results], dict[str, float]]
+    measures: Callable[[Scenario, RunSummary, Results], dict[str, float]]
 
     @property
     def problem(self) -> dict[str, object]:
@@ -89,7 +89,7 @@ class Demolition:
         return design.sample(self.problem, TRAJECTORIES, num_levels=LEVELS, seed=SEED)
 
 
-def of_collapse(scenario: Scenario, summary: Mapping, results: Results) -> dict[str, float]:
+def of_collapse(scenario: Scenario, summary: RunSummary, results: Results) -> dict[str, float]:
     """What is measured of a span that comes down."""
     outputs = evaluate(results, summary, scenario).outputs
     fallen = fallen_shares(results)
@@ -101,7 +101,7 @@ def of_collapse(scenario: Scenario, summary: Mapping, results: Results) -> dict[
     }
 
 
-def of_dent(_scenario: Scenario, _summary: Mapping, results: Results) -> dict[str, float]:
+def of_dent(_scenario: Scenario, _summary: RunSummary, results: Results) -> dict[str, float]:
     """What is measured of a deck under a ball: as in reinforced_deck.py, how far its middle has gone down."""
     frames, inventory = results.frames, results.inventory
     near = (inventory.body_members == "span 1 deck") & (abs(frames.positions_m[0, :, 0] - 6.5) < 1.3)
@@ -222,7 +222,7 @@ def measured(demolition: Demolition, number: int) -> dict[str, float]:
     scenario = scenario_with(demolition, demolition.samples()[number])
     with tempfile.TemporaryDirectory() as folder:
         results = run(scenario, Path(folder, "run"))
-        return demolition.measures(scenario, read_summary(Path(folder, "run")).values, results)
+        return demolition.measures(scenario, read_summary(Path(folder, "run")), results)
 
 
 def scenario_with(demolition: Demolition, drawn: Sequence[float]) -> Scenario:

@@ -12,7 +12,8 @@ from bridge_demolition_addon.engineering.geometry.mesh import TriangleMesh
 from bridge_demolition_addon.engineering.terrain.levelling import Levelled
 from bridge_demolition_addon.engineering.terrain.recorded import NamedSurface, RecordedGround
 from bridge_demolition_addon.engineering.terrain.surface import Surface
-from bridge_demolition_addon.model.terrain.built import TerrainFacts, facts_from, terrain_summary
+from bridge_demolition_addon.model.results.records import record_of
+from bridge_demolition_addon.model.terrain.built import TerrainFacts, terrain_summary
 
 CORNERS = np.array([[-100, -100, 60], [100, -100, -40], [100, 100, -40], [-100, 100, 60]], float)
 TWO = np.array([[0, 1, 2], [0, 2, 3]])
@@ -60,4 +61,4 @@ def test_a_summary_describes_the_terrain_again():
     assert words["without data"].startswith("3.1 % of the site")
     assert words["under pier 1"] == "dug up to 0.25 m, filled up to 0.12 m"
     kept = asdict(facts) | {"error_place_m": [3.0, -7.5], "levelled": [asdict(pier)]}  # as JSON gives it back
-    assert facts_from(kept) == facts
+    assert record_of(TerrainFacts, kept, "terrain") == facts

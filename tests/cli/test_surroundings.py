@@ -10,6 +10,7 @@ from support.ifc_bridges import whole_bridge
 from support.processes import run_bda, run_program
 from support.scenarios import SHORT_RUN
 
+from bridge_demolition_addon.model.run_folder.summary import read_summary
 from bridge_demolition_addon.model.scenario.file import scenario_text
 from bridge_demolition_addon.model.sequence.ending import unusable_texts
 
@@ -45,5 +46,5 @@ def test_without_a_home_a_run_and_its_report_are_whole(tmp_path):
         assert status == 0
         assert "Traceback" not in complained  # matplotlib says where its fonts go
         said = [line for line in complained.splitlines() if "bda" in line]
-        assert said == [f"bda: {path}: {text}" for text in unusable_texts(summary(output)) if command[0] == "run"]
+        assert said == [f"bda: {path}: {text}" for text in unusable_texts(read_summary(output)) if command[0] == "run"]
     assert (output / "summary.json").exists() and (output / "report.pdf").stat().st_size > 0

@@ -10,6 +10,7 @@ from support.example_claims import assert_begins
 from support.example_runs import begun, example, run_example
 from support.long_cases import long_but
 
+from bridge_demolition_addon.model.run_folder.summary import RunSummary
 from bridge_demolition_addon.model.study.outcome import evaluate
 
 NAMES = ("single_span_explosives", "two_spans_20m_delays")
@@ -60,7 +61,7 @@ def test_blast_pushes_away_from_the_charges(loud):
 
 
 def test_a_study_keeps_little_of_such_a_run(loud, tmp_path):
-    outcome = evaluate(loud.results, loud.summary, loud.scenario)
+    outcome = evaluate(loud.results, RunSummary.of(loud.summary), loud.scenario)
     np.savez_compressed(tmp_path / "outlines.npz", **outcome.outlines.arrays())
     assert len(loud.shards) >= 200
     assert (tmp_path / "outlines.npz").stat().st_size + len(json.dumps(outcome.outputs)) < 200_000

@@ -6,9 +6,9 @@ from dataclasses import replace
 from support.checkout import EXAMPLES
 from support.run_folders import TOLD
 
+from bridge_demolition_addon.model.results.stability import ZoneLoad
 from bridge_demolition_addon.model.scenario import Geometry, MemberCut, Neighbour, VibrationLaw
 from bridge_demolition_addon.model.scenario.file import read_scenario
-from bridge_demolition_addon.model.structure.zone_loads import ZoneLoad
 from bridge_demolition_addon.report.document.blocks import DataTable, Paragraph
 from bridge_demolition_addon.report.sections.charge_plan import charge_plan_section, known_plan
 

@@ -15,6 +15,7 @@ from support.run_folders import TOLD, flying_shards, keep_run
 from support.study_folders import told_runs, told_study
 
 from bridge_demolition_addon.model.debris.throws import debris_of
+from bridge_demolition_addon.model.results.records import Moment
 from bridge_demolition_addon.model.scenario import Exclusion
 from bridge_demolition_addon.report.document.blocks import DataTable, Document, Paragraph
 from bridge_demolition_addon.report.ensemble.document import doubts_of
@@ -118,8 +119,8 @@ def test_every_page_of_a_run_begins_with_its_doubts_and_sets_the_cordon_against_
     for (moves, made), ((stopped, start_s), ending) in product(kept, ENDINGS.items()):
         scenario = scenario_of(drilled, start_s, cordon_m)
         read = kept[moves, made]
-        hit = {"impact": {"time_s": 0.5, "frame": 14}} if start_s < END_S else {"impact": None}
-        summary = replace(read.summary, values={**read.summary.values, "completed": not stopped, **hit})
+        hit = Moment(0.5, 14) if start_s < END_S else None
+        summary = replace(read.summary, completed=not stopped, impact=hit)
         run = replace(read, scenario=scenario, summary=summary, ball=summary)
         findings = findings_section(run, debris[moves], {}, flyrock if drilled else None)
         document = Document(run.title, "", (findings,), run_summary(run, debris[moves], flyrock if drilled else None))

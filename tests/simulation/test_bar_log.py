@@ -10,6 +10,8 @@ import numpy as np
 import pytest
 from support.checkout import ROOT
 
+from bridge_demolition_addon.model.run_folder.summary import RunSummary
+
 sys.path.insert(1, str(ROOT / "validation"))
 
 from beams import Beam
@@ -18,7 +20,6 @@ from case import RIGID_BODIES, simulated
 from bridge_demolition_addon.display.contour_quantities import ContourQuantity
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.model.results.collapse import ConnectionCounts
-from bridge_demolition_addon.model.results.extremes import bars_text
 from bridge_demolition_addon.report.run_folder import read_run
 from bridge_demolition_addon.report.sections.reinforcement import bar_blocks
 from bridge_demolition_addon.ui.results.shown_run import lines_of
@@ -108,14 +109,14 @@ def test_a_beam_that_bars_let_go_is_said_to_have_ruptured(blender, tmp_path):
     lower_j, upper_j = (force_n * (ELONGATION_M - AT_YIELD_M) for force_n in (lower_n, lower_n / 5.0))
     assert 0.98 * lower_j < summary["energy"]["dissipated_by_bars_J"] < 1.02 * (lower_j + upper_j)
     assert (
-        bars_text(summary)
+        RunSummary.of(summary).reinforcement.text
         == f"1 of {bars['with_bars']} connections with bars cracked, 1 yielded, 0 ruptured, 1 in part"
     )
-    assert any(line.startswith("Bars: 1 of ") for line in lines_of(summary))
+    assert any(line.startswith("Bars: 1 of ") for line in lines_of(RunSummary.of(summary)))
     table = bar_blocks(read_run(tmp_path / "beam" / "run"))[0]
     # What depends on the length of sub-steps is given nowhere as a margin.
     assert list(table.rows[0]) == ["beam", 1, 1, 0, 1, 1]
-    assert not any("rupture strain" in line for line in lines_of(summary))
+    assert not any("rupture strain" in line for line in lines_of(RunSummary.of(summary)))
     frame, shards = results.frames[-1], results.inventory.of_kind("shard")
     uses = [
         ContourQuantity.BAR_USE.mean(results.frames[row], frame)[shards].max() for row in range(len(results.frames))
@@ -124,4 +125,4 @@ def test_a_beam_that_bars_let_go_is_said_to_have_ruptured(blender, tmp_path):
 
 
 def test_a_run_without_bars_says_nothing_of_them():
-    assert bars_text({}) == bars_text({"reinforcement": None}) == ""
+    assert RunSummary.of({"reinforcement": None}).reinforcement is RunSummary().reinforcement is None

@@ -16,7 +16,7 @@ from bridge_demolition_addon.model.bridge import deck_underside
 from bridge_demolition_addon.model.bridge.layout import pier_axes
 from bridge_demolition_addon.model.debris.throws import debris_of
 from bridge_demolition_addon.model.results.energy import is_known, made_share, throws_of
-from bridge_demolition_addon.model.results.summary import first_hit_s
+from bridge_demolition_addon.model.run_folder.summary import RunSummary
 from bridge_demolition_addon.model.scenario import Scenario
 
 Measure = Callable[[ExampleRun], dict[str, float | None]]
@@ -68,7 +68,7 @@ def times(run: ExampleRun) -> dict[str, float | None]:
     """When the ball first hits, since when everything rests, and how many shards still move at the end."""
     moving = run.summary["moving_at_end"]
     return {
-        "first_impact_s": first_hit_s(run.summary),
+        "first_impact_s": RunSummary.of(run.summary).first_hit_s,
         "came_to_rest_s": run.summary["came_to_rest_s"],
         "still_moving_shards": moving["shards"] if moving else 0,
     }

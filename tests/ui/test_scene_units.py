@@ -3,6 +3,8 @@
 
 import pytest
 
+from bridge_demolition_addon.model.run_folder.summary import RunSummary
+
 FOOT_M, POUND_KG = 0.3048, 0.45359237
 """By the international agreement of 1959."""
 
@@ -48,7 +50,7 @@ def test_results_are_in_pounds_where_the_scene_is_imperial(imperial):
         "frames": 3,
         "simulated_s": 0.1,
     }
-    assert lines_of(summary)[0] == "Total mass: 30 lb"
+    assert lines_of(RunSummary.of(summary))[0] == "Total mass: 30 lb"
 
 
 @pytest.mark.parametrize(

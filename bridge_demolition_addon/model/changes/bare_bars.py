@@ -2,24 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ...engineering.geometry.vectors import AXES
 from ...engineering.mechanics.strength import NEWTON_PER_SQUARE_MILLIMETRE
-from ...texts import Text, joined
 from ..schema import given
 
 if TYPE_CHECKING:
     from .zone_firings import ZoneFiring
 
 _CORNERS = np.array([(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)])
-
-_HOLD_M = 0.01
-"""By how much the ends of bars come closer at most where they hold."""
 
 _AT_PLANE = 0.02
 """Part of the height of a zone within which a connection is at one of its two planes."""
@@ -93,25 +88,4 @@ def standing_bars(
         zone.name,
         zone.cage_tension_n,
         zone.cage_compression_n,
-    )
-
-
-def bare_bars_text(summary: Mapping[str, Any]) -> str:
-    """Return which bars held more in a run than may be counted on, as a sentence without a full stop; empty for none.
-
-    `summary` is that of the run, with its events.
-    """
-    used = {
-        event["zone"]: event["cage_pressed_n"] / event["cage_compression_n"]
-        for event in summary.get("events", ())
-        if event.get("cage_pressed_n", 0.0) > event.get("cage_compression_n", 0.0) > 0.0
-        and event["cage_folded_m"] < _HOLD_M
-    }
-    if not used:
-        return ""
-    return Text(
-        "Bare bars of {} held though they were pressed with up to {} times what may be counted on (EN 1993-1-1, "
-        "curve c): bars of a run are straight, so that those of the bridge may fold",
-        joined("{}, {}", used),
-        f"{max(used.values()):.2f}",
     )

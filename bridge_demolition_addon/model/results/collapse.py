@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import NamedTuple
 
 import numpy as np
 
@@ -14,6 +14,7 @@ from ...engineering.geometry.vectors import length
 from ...engineering.terrain.recorded import RecordedGround
 from .arrays import Results
 from .motion import relative_to_ground
+from .records import BarsAtEnd, ConnectionsOfRun
 
 REST_SPEED_M_S = 0.1
 """A shard that moves more slowly than this is at rest."""
@@ -105,10 +106,16 @@ class ShardRest:
     moving_at_end: int
 
 
-def rest_of(results: Results, summary: Mapping[str, Any] | None = None) -> ShardRest:
+class Rested(NamedTuple):
+    """When everything came to rest, as the run found it; None where it did not."""
+
+    came_to_rest_s: float | None
+
+
+def rest_of(results: Results, noted: Rested | None = None) -> ShardRest:
     """Return when the shards began to move on the ground, by `REST_SPEED_M_S`, and when they came to rest on it.
 
-    The run has found that by energy, and noted it in its summary; of a run without, it is by that speed.
+    The run has found that by energy, and noted it; of a run without, it is by that speed.
     """
     shards = results.inventory.of_kind("shard")
     moving = length(relative_to_ground(results).frames.velocities_m_s[:, shards]) > REST_SPEED_M_S
@@ -117,8 +124,8 @@ def rest_of(results: Results, summary: Mapping[str, Any] | None = None) -> Shard
         return ShardRest(None, None, 0)
     at_end = int(moving[-1].sum())
     at_rest = None if at_end else float(results.frames.time_s[at_times[-1] + 1])
-    if summary and "came_to_rest_s" in summary:
-        at_rest = summary["came_to_rest_s"]
+    if noted:
+        at_rest = noted.came_to_rest_s
     return ShardRest(float(results.frames.time_s[at_times[0]]), at_rest, at_end)
 
 
@@ -187,13 +194,11 @@ class ConnectionCounts:
         return cls.of_frame(results.frames.intact[row], None if bars is None else bars[row])
 
     @classmethod
-    def of_summary(cls, summary: Mapping[str, Any]) -> ConnectionCounts:
+    def at_end(cls, known: ConnectionsOfRun, bars: BarsAtEnd | None) -> ConnectionCounts:
         """Return the counts at the end of a run, by its summary; those of runs of before as far as these say."""
-        known, bars = summary["connections"], summary.get("reinforcement")
-        if known.get("cracked") is None and bars:
-            cracked = bars["held_at_end"]
-            return cls(known["count"], known["broken"], cracked, None, known["broken"] - cracked)
-        return cls(known["count"], known["broken"], *(known.get(name) for name in ("cracked", "yielded", "torn")))
+        if known.cracked is None and bars:
+            return cls(known.count, known.broken, bars.held_at_end, None, known.broken - bars.held_at_end)
+        return cls(known.count, known.broken, known.cracked, known.yielded, known.torn)
 
     def to_json(self) -> dict[str, int | None]:
         """Those that `broken` does not tell apart, ready for JSON."""

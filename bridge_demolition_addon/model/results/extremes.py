@@ -252,13 +252,3 @@ def members_of(inventory: Inventory, rows: np.ndarray) -> list[tuple[str, str]]:
     """Return the two members that each of some connections (r,) is between; empty where a body is of none."""
     names = np.append(inventory.body_members.astype(object), "")
     return [(str(first), str(second)) for first, second in names[inventory.pairs[rows]]]
-
-
-def bars_text(summary: Mapping[str, Any]) -> str:
-    """Return in a line how many cracks bars held, and how many of them yielded or ruptured; empty without bars."""
-    bars = summary.get("reinforcement")
-    if not bars:
-        return ""
-    counts = f"{bars['cracked']} of {bars['with_bars']} connections with bars cracked"
-    in_part = f", {bars['ruptured_in_part']} in part" if bars["ruptured_in_part"] else ""
-    return f"{counts}, {bars['yielded']} yielded, {bars['ruptured']} ruptured{in_part}"

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -13,6 +11,7 @@ from ...texts import UP, Quantity, Text
 from .arrays import Results
 from .collapse import REST_SPEED_M_S
 from .motion import relative_to_ground
+from .records import Creeping, CreepingShard, LargestThrow, StillMoving
 
 FARTHEST_THROW_M = 1000.0
 LARGEST_SPEED_M_S = 340.0
@@ -40,62 +39,63 @@ def moving_of(results: Results) -> Moving:
     return Moving(shards[rows], speeds[rows])
 
 
-def moving_summary(results: Results) -> dict[str, Any] | None:
-    """Return what still moves at the end of a run, ready for JSON; None where nothing does."""
+def moving_summary(results: Results) -> StillMoving | None:
+    """Return what still moves at the end of a run; None where nothing does."""
     moving, inventory = moving_of(results), results.inventory
     if not len(moving):
         return None
     fastest = moving.bodies[0]
-    return {
-        "shards": len(moving),
-        "of_shards": len(inventory.of_kind("shard")),
-        "mass_kg": float(inventory.masses_kg[moving.bodies].sum()),
-        "fastest_m_s": float(moving.speeds_m_s[0]),
-        "body": str(inventory.body_names[fastest]),
-        "member": str(inventory.body_members[fastest]),
-    }
+    return StillMoving(
+        shards=len(moving),
+        of_shards=len(inventory.of_kind("shard")),
+        mass_kg=float(inventory.masses_kg[moving.bodies].sum()),
+        fastest_m_s=float(moving.speeds_m_s[0]),
+        body=str(inventory.body_names[fastest]),
+        member=str(inventory.body_members[fastest]),
+    )
 
 
-def moving_text(summary: Mapping[str, Any]) -> str:
-    """Return what a summary says under ``moving_at_end``, as a sentence without a full stop; empty for nothing."""
-    moving = summary.get("moving_at_end")
+def moving_text(moving: StillMoving | None, came_to_rest_s: float | None = None, *, completed: bool = True) -> str:
+    """Return what still moves at the end of a run, as a sentence without a full stop; empty for nothing.
+
+    `came_to_rest_s` is when all together rested; `completed` whether the run went on for as long as planned.
+    """
     if not moving:
         return ""
-    one = moving["shards"] == 1
+    one = moving.shards == 1
     text = Text(
         "{} of {} shards still moves at the end, at up to {} ({}): throws and debris distances are not final"
         if one
         else "{} of {} shards still move at the end, at up to {} ({}): throws and debris distances are not final",
-        moving["shards"],
-        moving["of_shards"],
-        Quantity(moving["fastest_m_s"], "m/s", ".1f"),
-        moving["body"],
+        moving.shards,
+        moving.of_shards,
+        Quantity(moving.fastest_m_s, "m/s", ".1f"),
+        moving.body,
     )
     # All together rested by their energy: only another limit lets such a run go on.
-    if summary.get("came_to_rest_s") is not None:
+    if came_to_rest_s is not None:
         rests = "{}. As a whole it rests; a lower time.rest_speed_m_s, or no time.stop_at_rest, lets the run go on"
         return Text(rests, text)
-    if summary.get("completed", True):
+    if completed:
         return Text("{}. Let the run last longer: time.duration_s", text)
     return text
 
 
-def gone_text(summary: Mapping[str, Any]) -> str:
+def gone_text(throw: LargestThrow | None, moving: StillMoving | None) -> str:
     """Return that shards flew as no debris does, as a sentence without a full stop; empty where none did."""
-    throw, moving = summary.get("largest_throw"), summary.get("moving_at_end")
-    if throw and throw["throw_m"] > FARTHEST_THROW_M:
-        far = Quantity(throw["throw_m"] / 1000.0, "km", ".1f", UP)
+    if throw and throw.throw_m > FARTHEST_THROW_M:
+        far = Quantity(throw.throw_m / 1000.0, "km", ".1f", UP)
         return Text(
             "This run is not to be used: {} flew {}, as no part of a bridge does; look for what gave it that energy",
-            throw["body"],
+            throw.body,
             far,
         )
-    if moving and moving["fastest_m_s"] > LARGEST_SPEED_M_S:
-        fast = Quantity(moving["fastest_m_s"], "m/s", ".0f")
+    if moving and moving.fastest_m_s > LARGEST_SPEED_M_S:
+        fast = Quantity(moving.fastest_m_s, "m/s", ".0f")
         return Text(
             "This run is not to be used: {} still moves at {}, as no part of a bridge does; look for what gave it "
             "that energy",
-            moving["body"],
+            moving.body,
             fast,
         )
     return ""
@@ -162,47 +162,41 @@ def creep_of(results: Results) -> Creep:
     return Creep(shards[chosen], speeds[chosen], moved[chosen])
 
 
-def creep_summary(results: Results) -> dict[str, Any] | None:
-    """Return what creeps at the end of a run, ready for JSON; None where nothing does."""
+def creep_summary(results: Results) -> Creeping | None:
+    """Return what creeps at the end of a run, `NAMED` shards by name; None where nothing does."""
     creep, inventory = creep_of(results), results.inventory
     if not len(creep):
         return None
-    return {
-        "shards": len(creep),
-        "mass_kg": float(inventory.masses_kg[creep.bodies].sum()),
-        "fastest": [
-            {
-                "body": str(inventory.body_names[creep.bodies[row]]),
-                "member": str(inventory.body_members[creep.bodies[row]]),
-                "speed_m_s": float(creep.speeds_m_s[row]),
-                "moved_m": float(creep.moved_m[row]),
-            }
-            for row in range(min(NAMED, len(creep)))
-        ],
-    }
+    fastest = tuple(
+        CreepingShard(
+            body=str(inventory.body_names[creep.bodies[row]]),
+            member=str(inventory.body_members[creep.bodies[row]]),
+            speed_m_s=float(creep.speeds_m_s[row]),
+            moved_m=float(creep.moved_m[row]),
+        )
+        for row in range(min(NAMED, len(creep)))
+    )
+    return Creeping(len(creep), float(inventory.masses_kg[creep.bodies].sum()), fastest)
 
 
-def creep_text(summary: Mapping[str, Any]) -> str:
-    """Return what a run's summary says under ``creeping``, as a sentence without a full stop; empty for nothing."""
-    creeping = summary.get("creeping")
+def creep_text(creeping: Creeping | None) -> str:
+    """Return what creeps at the end of a run, as a sentence without a full stop; empty for nothing."""
     if not creeping:
         return ""
-    fastest = creeping["fastest"][0]
-    body = fastest["body"]
-    if fastest["member"]:
-        body = Text("{} of {}", body, fastest["member"])
+    fastest = creeping.fastest[0]
+    body = Text("{} of {}", fastest.body, fastest.member) if fastest.member else fastest.body
     return Text(
         (
             "{} shard creeps at the end, by up to {} ({}, {} from where it was): it neither rests nor falls. Simulate "
             "for longer to see whether more comes down"
         )
-        if creeping["shards"] == 1
+        if creeping.shards == 1
         else (
             "{} shards creep at the end, by up to {} ({}, {} from where it was): they neither rest nor fall. "
             "Simulate for longer to see whether more comes down"
         ),
-        creeping["shards"],
-        Quantity(1000.0 * fastest["speed_m_s"], "mm/s", ".0f"),
+        creeping.shards,
+        Quantity(1000.0 * fastest.speed_m_s, "mm/s", ".0f"),
         body,
-        Quantity(1000.0 * fastest["moved_m"], "mm", ".0f"),
+        Quantity(1000.0 * fastest.moved_m, "mm", ".0f"),
     )

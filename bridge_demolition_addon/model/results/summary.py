@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable
+from dataclasses import asdict
 from typing import Any, overload
 
 import numpy as np
@@ -16,6 +17,7 @@ from .collapse import ConnectionCounts
 from .energy import energy_summary
 from .motion import first_hit, relative_to_ground, throw, without_removed
 from .moving import creep_summary, moving_summary
+from .records import BallHit, Creeping, LargestThrow, Moment, StillMoving
 
 _FLYING_S = 0.5
 """How long after the last load of a blast: what falls has come down by 1.2 m, what flies is not yet out of sight."""
@@ -92,24 +94,26 @@ def summarise(results: Results, gravity_m_s2: np.ndarray, contact_time_s: float 
         "hits_of_the_ball": hits_of_balls(results, gravity_m_s2, contact_time_s),
         "largest_resultant": _largest_force(left, left.frames.loads.body_peaks_n),
         "largest_force_sum": _largest_force(left, left.frames.loads.body_peak_sums_n),
-        "largest_throw": largest_throw(left),
+        "largest_throw": _json(largest_throw(left)),
         "energy": energy_summary(left),
-        "creeping": creep_summary(left),
-        "moving_at_end": moving_summary(left),
+        "creeping": _json(creep_summary(left)),
+        "moving_at_end": _json(moving_summary(left)),
         "blast": _blast(results),
     }
 
 
-def first_hit_s(summary: Mapping[str, Any]) -> float | None:
-    """Return when the falling ball first hit, by a run's summary: by its hits if recorded, or else to a frame.
+def _json(record: LargestThrow | Creeping | StillMoving | None) -> dict[str, Any] | None:
+    return asdict(record) if record else None
+
+
+def first_hit_s(impact: Moment | None, hits: Iterable[BallHit]) -> float | None:
+    """Return when the falling ball first hit, by its impact: by its hits if recorded, or else to a frame.
 
     Contacts of the ball while it is still held are no hits.
     """
-    impact = summary.get("impact")
     if not impact:
         return None
-    begun = (hit["time_s"] for hit in summary.get("hits_of_the_ball", ()) if hit["time_s"] < impact["time_s"])
-    return float(max(begun, default=impact["time_s"]))
+    return float(max((hit.time_s for hit in hits if hit.time_s < impact.time_s), default=impact.time_s))
 
 
 def settling(results: Results, warm_up_s: float) -> dict[str, float] | None:
@@ -230,11 +234,11 @@ def _largest_force(results: Results, magnitudes: np.ndarray) -> dict[str, Any] |
     }
 
 
-def largest_throw(results: Results) -> dict[str, Any] | None:
+def largest_throw(results: Results) -> LargestThrow | None:
     """Return the largest throw of a shard of those that were not removed, on ground that may move; None without any."""
     results = relative_to_ground(results)
     shards = results.inventory.of_kind("shard")
     if not len(shards):
         return None
     throws = throw(results.frames.positions_m[0, shards], results.frames.positions_m[-1, shards])
-    return {"throw_m": float(throws.max()), "body": str(results.inventory.body_names[shards[throws.argmax()]])}
+    return LargestThrow(float(throws.max()), str(results.inventory.body_names[shards[throws.argmax()]]))

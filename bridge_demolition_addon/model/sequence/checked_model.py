@@ -19,10 +19,11 @@ from ..bridge.member import Member
 from ..bridge.preparation import surface_height
 from ..changes.zone_firings import ZoneFiring
 from ..lifts import Lift, Pick, Sling
+from ..results.stability import ZoneLoad
 from ..scenario import MemberCut, Scenario
 from ..structure.blast_zones import one_member, placed_zone, placed_zones
 from ..structure.model import Model, build_model
-from ..structure.zone_loads import ZoneFall, ZoneLoad, facts_of_zones, zone_falls
+from ..structure.zone_loads import ZoneFall, facts_of_zones, zone_falls
 from .lifts import PlacedLift, model_structure, placed_lift
 
 _SPHERE_FACETS = 64

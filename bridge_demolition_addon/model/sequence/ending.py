@@ -6,19 +6,20 @@ outcome doubtful.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from enum import StrEnum
-from typing import Any, Self
+from typing import Self
 
 import numpy as np
 
-from ...texts import Quantity, Text
-from ..changes.bare_bars import bare_bars_text
+from ...texts import Quantity, Text, joined
 from ..results.arrays import Results
 from ..results.energy import much_made_text
 from ..results.motion import MOVED_M, travel
 from ..results.moving import gone_text, moving_text
+from ..results.records import EventOfRun, Fall, SolverEnergy
+from ..run_folder.summary import RunSummary
 from ..scenario import Scenario
 from ..scenario.scenario import no_actions
 from .lifts import held_parts_text, pick_texts
@@ -52,12 +53,11 @@ def left_alone(scenario: Scenario, seconds: float = AWAKE_S) -> Scenario:
     )
 
 
-def fell_by_itself(results: Results, scenario: Scenario) -> dict[str, Any] | None:
-    """Return what broke and moved before anything was done to a bridge, ready for JSON; None where it stood.
+def fell_by_itself(results: Results, scenario: Scenario) -> Fall | None:
+    """Return what broke and moved before anything was done to a bridge; None where it stood.
 
     It stood where no connection broke and no shard moved by more than `MOVED_M`; with bars, which hold cracks, where no
-    shard moved so far. Shards that sleep until something hits them stand in any case. ``until_s`` is None where nothing
-    was ever done.
+    shard moved so far. Shards that sleep until something hits them stand in any case.
     """
     first_s = first_event_s(scenario)
     rows = np.flatnonzero(results.frames.time_s <= first_s)
@@ -71,13 +71,13 @@ def fell_by_itself(results: Results, scenario: Scenario) -> dict[str, Any] | Non
     if largest_move_m <= MOVED_M and (scenario.is_reinforced or not broken[-1]):
         return None
     breaks = np.flatnonzero(broken)
-    return {
-        "until_s": first_s if math.isfinite(first_s) else None,
-        "first_break_s": float(results.frames.time_s[breaks[0]]) if len(breaks) else None,
-        "broken": int(broken[-1]),
-        "connections": len(results.inventory.connection_names),
-        "largest_move_m": largest_move_m,
-    }
+    return Fall(
+        until_s=first_s if math.isfinite(first_s) else None,
+        first_break_s=float(results.frames.time_s[breaks[0]]) if len(breaks) else None,
+        broken=int(broken[-1]),
+        connections=len(results.inventory.connection_names),
+        largest_move_m=largest_move_m,
+    )
 
 
 def asleep_text(scenario: Scenario) -> str:
@@ -91,17 +91,16 @@ def asleep_text(scenario: Scenario) -> str:
     )
 
 
-def self_collapse_text(summary: Mapping[str, Any]) -> str:
-    """Return what a summary says under ``fell_by_itself``, as a sentence without a full stop; empty for nothing."""
-    fall = summary.get("fell_by_itself")
+def self_collapse_text(fall: Fall | None) -> str:
+    """Return that a bridge fell by itself, as a sentence without a full stop; empty for nothing."""
     if not fall:
         return ""
-    moved = Text("shards moved by up to {}", Quantity(fall["largest_move_m"], "m", ".2f"))
+    moved = Text("shards moved by up to {}", Quantity(fall.largest_move_m, "m", ".2f"))
     parts = moved
-    if fall["first_break_s"] is not None:
-        breaks = fall["broken"], fall["connections"], f"{fall['first_break_s']:.2f}"
+    if fall.first_break_s is not None:
+        breaks = fall.broken, fall.connections, f"{fall.first_break_s:.2f}"
         parts = Text("{} and {}", Text("{} of {} connections broke, the first at {} s,", *breaks), moved)
-    if fall["until_s"] is None:
+    if fall.until_s is None:
         return Text(
             "The bridge does not stand by itself: {}, though nothing was done to it. Make its connections "
             "stronger, or cut it otherwise",
@@ -111,7 +110,7 @@ def self_collapse_text(summary: Mapping[str, Any]) -> str:
         "The bridge does not stand by itself: {} up to {} s, before anything was done to it. Make its connections "
         "stronger, or cut it otherwise",
         parts,
-        f"{fall['until_s']:.2f}",
+        f"{fall.until_s:.2f}",
     )
 
 
@@ -132,11 +131,10 @@ class Ending:
     undone: Undone | None = None
 
     @classmethod
-    def of(cls, summary: Mapping[str, Any]) -> Self:
+    def of(cls, summary: RunSummary) -> Self:
         """Return how the run of a summary ended."""
-        undone = summary.get("ended_before")
-        how = "Ended at" if summary.get("completed", True) else "Stopped at"
-        return cls(float(summary.get("simulated_s", 0.0)), how, undone and Undone(undone))
+        how = "Ended at" if summary.completed else "Stopped at"
+        return cls(float(summary.simulated_s), how, Undone(summary.ended_before) if summary.ended_before else None)
 
     @property
     def has_outcome(self) -> bool:
@@ -179,37 +177,60 @@ def undone_at_end(results: Results, scenario: Scenario, *, has_hit: bool) -> Und
     return Undone.LAST if end_s < last_s else None
 
 
-def doubts_of_run(summary: Mapping[str, Any]) -> tuple[str, ...]:
+def doubts_of_run(summary: RunSummary) -> tuple[str, ...]:
     """Return all that is doubtful as sentences without full stops, what has to be said before any result first."""
-    of_parts = held_parts_text(summary), *pick_texts(summary)
-    texts = *first_doubts(summary), self_collapse_text(summary), *of_parts, bare_bars_text(summary)
-    return tuple(text for text in texts if text)
+    return *first_doubts(summary), *doubts_of_actions(summary)
 
 
-def first_doubts(summary: Mapping[str, Any]) -> tuple[str, ...]:
+def doubts_of_actions(summary: RunSummary) -> tuple[str, ...]:
+    """Return what is doubtful of the bridge and of what was done to it, as sentences without full stops."""
+    of_lifts = held_parts_text(summary.events), *pick_texts(summary.lifts)
+    texts = self_collapse_text(summary.fell_by_itself), *of_lifts, bare_bars_text(summary.events)
+    return tuple(filter(None, texts))
+
+
+def first_doubts(summary: RunSummary) -> tuple[str, ...]:
     """Return what has to be said before any result: no loads, no outcome, still moving, or energy gained."""
-    stability = summary.get("stability") or {}
     texts = (
-        only_motion_text(summary),
+        only_motion_text(summary.only_motion_because),
         *unusable_texts(summary),
         Ending.of(summary).text,
-        moving_text(summary),
-        *stability.get("unusual", ()),
+        moving_text(summary.moving_at_end, summary.came_to_rest_s, completed=summary.completed),
+        *(summary.stability.unusual if summary.stability else ()),
     )
-    return tuple(text for text in texts if text)
+    return tuple(filter(None, texts))
 
 
-def unusable_texts(summary: Mapping[str, Any]) -> tuple[str, ...]:
+def unusable_texts(summary: RunSummary) -> tuple[str, ...]:
     """Return why a run is not to be used, as sentences without full stops: shards that are gone, energy made."""
-    made = (summary.get("energy") or {}).get("made_by_solver", {})
-    of_dissipated = made.get("share_of_dissipated", 0.0)
-    much_made = much_made_text(made.get("share_that_counts", of_dissipated), of_dissipated)
-    return tuple(text for text in (gone_text(summary), much_made) if text)
+    made = summary.energy.made_by_solver if summary.energy else SolverEnergy()
+    much_made = much_made_text(made.counted_share, made.share_of_dissipated)
+    return tuple(filter(None, (gone_text(summary.largest_throw, summary.moving_at_end), much_made)))
 
 
-def only_motion_text(summary: Mapping[str, Any]) -> str:
+def only_motion_text(reason: str | None) -> str:
     """Return that no loads are known, as a sentence without a full stop, with the reason; empty where they are."""
-    reason = summary.get("only_motion_because")
     return (
         f"Only motion was recorded: what connections carry, and which broke, is not known. {reason}" if reason else ""
+    )
+
+
+_HOLD_M = 0.01
+"""By how much the ends of bars come closer at most where they hold."""
+
+
+def bare_bars_text(events: Iterable[EventOfRun]) -> str:
+    """Return which bars held more than may be counted on, as a sentence without a full stop; empty for none."""
+    used = {
+        event.zone: event.cage_pressed_n / event.cage_compression_n
+        for event in events
+        if event.cage_pressed_n > event.cage_compression_n > 0.0 and event.cage_folded_m < _HOLD_M
+    }
+    if not used:
+        return ""
+    return Text(
+        "Bare bars of {} held though they were pressed with up to {} times what may be counted on (EN 1993-1-1, "
+        "curve c): bars of a run are straight, so that those of the bridge may fold",
+        joined("{}, {}", used),
+        f"{max(used.values()):.2f}",
     )

@@ -6,9 +6,8 @@ it.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
@@ -23,6 +22,7 @@ from ...texts import Text, joined
 from ..as_built import Structure
 from ..lifts import Lift, Pick, Sling, radius_m, sling_of
 from ..results.frames import Inventory
+from ..results.records import EventOfRun, LiftOfRun
 from ..schema import given
 from ..structure.model import Model
 from ..structure.tendons import ModelTendons
@@ -245,12 +245,12 @@ def _gravity(model: Model, shards: np.ndarray) -> tuple[float, np.ndarray]:
     return mass_kg, np.array(moments) / mass_kg
 
 
-def held_parts_text(summary: Mapping[str, Any]) -> str:
-    """Return what the events of a summary say of them, as a sentence without a full stop; empty for nothing."""
-    held = [event for event in summary.get("events", ()) if event.get("held_by")]
+def held_parts_text(events: Iterable[EventOfRun]) -> str:
+    """Return what the events of a run say of them, as a sentence without a full stop; empty for nothing."""
+    held = [event for event in events if event.held_by]
     if not held:
         return ""
-    parts = [Text("lift {} by {}", repr(event["lift"]), joined("{}, {}", event["held_by"])) for event in held]
+    parts = [Text("lift {} by {}", repr(event.lift), joined("{}, {}", event.held_by)) for event in held]
     return Text(
         "Parts were still held when the crane lifted them away: {}. The run took them out nevertheless; a crane "
         "cannot. Cut them free before, or lift later",
@@ -258,11 +258,11 @@ def held_parts_text(summary: Mapping[str, Any]) -> str:
     )
 
 
-def pick_texts(summary: Mapping[str, Any]) -> tuple[str, ...]:
-    """Return which parts weigh otherwise by their volume, by a summary, as sentences without full stops."""
-    masses_kg = (
-        (lift["name"], *(lift[key] / STANDARD_GRAVITY_M_S2 for key in ("weight_N", "volume_weight_N")))
-        for lift in summary.get("lifts", ())
-        if "volume_weight_N" in lift  # earlier versions did not say
+def pick_texts(lifts: Iterable[LiftOfRun]) -> tuple[str, ...]:
+    """Return which parts weigh otherwise by their volume, as sentences without full stops."""
+    picks = (
+        Pick(lift.name, lift.weight_n / STANDARD_GRAVITY_M_S2, lift.volume_weight_n / STANDARD_GRAVITY_M_S2)
+        for lift in lifts
+        if lift.volume_weight_n is not None  # earlier versions did not say
     )
-    return tuple(filter(None, (Pick(*values).warning for values in masses_kg)))
+    return tuple(pick.warning for pick in picks if pick.warning)

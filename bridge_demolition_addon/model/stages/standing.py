@@ -16,6 +16,7 @@ from ...engineering.mechanics.overloads import Overloads
 from ...engineering.mechanics.section_cuts import ConnectionLoads, SectionForces
 from ...engineering.units import STANDARD_GRAVITY_M_S2
 from ...errors import ScenarioError
+from ..results.stability import LARGEST_FACTOR
 from ..scenario import Scenario
 from ..scenario.connections import MATERIAL_OF_LARGE_MODELS
 from ..schema import given
@@ -28,8 +29,6 @@ from ..structure.utilisation import Utilisations
 _MOST_ROUNDS = 200
 """A bridge that still breaks after so many breaks, one after another, comes down."""
 
-LARGEST_FACTOR = 64.0
-"""Load factor up to which collapse is looked for."""
 _PRECISION = 0.01
 _LITTLE_BY_LITTLE = 1.05
 """Growth of a load factor in which a bridge cracks little by little."""

@@ -16,6 +16,7 @@ from ..actions import Fact
 from ..blast.blast_zones import BlastZone
 from ..materials import strengths
 from ..reinforcement.concrete_members import material_of
+from ..results.stability import ZoneLoad
 from ..scenario import Scenario
 from ..schema import given
 from .blast_zones import PlacedZone
@@ -31,19 +32,6 @@ _AT_ONCE = 2.0
 """Force by that at rest in elastic bars whose load comes upon them at once."""
 
 _MEGA = 1e6
-
-
-@dataclass(frozen=True, slots=True)
-class ZoneLoad:
-    """What the section at one end of a zone carries at rest: the upper end, or where a level member has more bending.
-
-    `pressed_n` is the force along the member, below 0 in tension. `bending_nm` is about the middle of the section.
-    """
-
-    zone: str
-    pressed_n: float
-    shear_n: float
-    bending_nm: float
 
 
 def zone_loads(zones: Sequence[BlastZone], model: Model, loads: ConnectionLoads) -> tuple[ZoneLoad, ...]:

@@ -20,9 +20,10 @@ from ..debris.throws import debris_of
 from ..debris.touchdown import landings, shaking_at
 from ..debris.zones import watch_zone
 from ..results.arrays import Results
-from ..results.collapse import ConnectionCounts, Span, collapse_progress, piers_of, spans_of
+from ..results.collapse import Span, collapse_progress, piers_of, spans_of
 from ..results.energy import is_known, throws_of
 from ..results.motion import relative_to_ground, without_removed
+from ..run_folder.summary import RunSummary
 from ..scenario import Scenario
 from ..structure.charge_plan import AtNeighbour, neighbours_of_zones
 from .conclusions import fragment_outputs
@@ -71,7 +72,7 @@ class RunEvaluation:
 
 def evaluate(
     results: Results,
-    summary: Mapping[str, Any],
+    summary: RunSummary,
     scenario: Scenario,
     criteria: Sequence[Criterion] = (),
     least_mass_kg: float = 0.0,
@@ -136,16 +137,16 @@ def _without_doubtful(results: Results, hazards: np.ndarray, on_the_way_m: np.nd
     }
 
 
-def _course(results: Results, summary: Mapping[str, Any], scenario: Scenario) -> dict[str, Any]:
-    force, energy, counts = summary["largest_resultant"], summary["energy"], ConnectionCounts.of_summary(summary)
+def _course(results: Results, summary: RunSummary, scenario: Scenario) -> dict[str, Any]:
+    force, energy, counts = summary.largest_resultant, summary.energy, summary.counts
     outputs = {
         COLLAPSED: float(collapse_progress(results)[-1]),
         "broken": counts.broken,
         "torn": counts.torn,
-        RESTED: summary.get("came_to_rest_s"),
-        MOVING: moving["shards"] if (moving := summary.get("moving_at_end")) else 0,
-        "largest_force_N": force and force["force_N"],
-        "made_by_solver_share": energy and energy["made_by_solver"]["share_that_counts"],
+        RESTED: summary.came_to_rest_s,
+        MOVING: summary.moving_at_end.shards if summary.moving_at_end else 0,
+        "largest_force_N": force and force.force_n,
+        "made_by_solver_share": energy and energy.made_by_solver.counted_share,
     }
     lengths = scenario.bridge.span_lengths_m if scenario.bridge else ()
     for span in spans_of(results, lengths):

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, fields
-from typing import Any
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -167,15 +166,6 @@ def _near(kept: np.ndarray, grid: Grid, points: np.ndarray) -> np.ndarray:
     cells = np.clip(np.floor((points[:, :2] - grid.low) / grid.step_m).astype(np.int64), 0, grid.size - 2)
     corners = [kept[cells[:, 1] + down, cells[:, 0] + right] for down in (0, 1) for right in (0, 1)]
     return np.any(corners, axis=0)
-
-
-def facts_from(values: Mapping[str, Any]) -> TerrainFacts:
-    """Return the facts that a run's summary keeps."""
-    known = {field.name: values[field.name] for field in fields(TerrainFacts)}
-    x, y = known["error_place_m"]
-    return TerrainFacts(
-        **known | {"error_place_m": (x, y), "levelled": tuple(Levelled(**values) for values in known["levelled"])}
-    )
 
 
 def terrain_summary(facts: TerrainFacts) -> list[tuple[str, str]]:

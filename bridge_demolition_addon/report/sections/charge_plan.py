@@ -12,13 +12,14 @@ from ...errors import GeometryError, ScenarioError
 from ...model.blast.vibration_laws import OF_CHARGES
 from ...model.bridge.preparation import prepared_members
 from ...model.debris.vibration_limits import CHARGES_HZ
+from ...model.results.stability import ZoneLoad
 from ...model.scenario import Scenario
 from ...model.schema import given
 from ...model.structure.blast_zones import POSSIBLE_G_T, RECORDED_G_T, PlacedZone
 from ...model.structure.charge_plan import AtNeighbour, ChargePlan, Totals, charge_plan, zone_name
 from ...model.structure.firing_order import firing_pairs
 from ...model.structure.zone_fragments import FlyrockOfZone
-from ...model.structure.zone_loads import ZoneFall, ZoneLoad, bars_used, zone_falls
+from ...model.structure.zone_loads import ZoneFall, bars_used, zone_falls
 from ...texts import Quantity, Text, Unit, joined
 from ..document.blocks import Block, Column, DataTable, Paragraph, Section, facts
 from ..wording.site_law import extrapolated_text, site_law_text

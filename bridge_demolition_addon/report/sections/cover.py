@@ -216,7 +216,7 @@ def scenario_section(run: ReportedRun, text: str) -> Section:
 def _run_facts(run: ReportedRun, version: str) -> Iterator[tuple[str, str]]:
     yield Text("Scenario"), run.title
     yield Text("Folder"), run.name
-    summary, results = run.summary or RunSummary({}), run.results
+    summary, results = run.summary or RunSummary(), run.results
     if results is not None:
         yield Text("Simulated"), Text("{} s in {} frames", f"{results.frames.time_s[-1]:.3f}", len(results.frames))
         steps = results.frames.substep_s[results.frames.substep_s > 0.0]
@@ -298,7 +298,7 @@ def _findings(run: ReportedRun, debris: Debris) -> Iterator[tuple[str, str]]:
 
 def photo_caption(run: ReportedRun, picture: str) -> str:
     """Return what a picture shows; in summaries of earlier versions there is no key frame."""
-    reason = (run.summary and run.summary.key_frame_reason) or "In the course of the run"
+    reason = (run.summary and run.summary.key_frame.reason) or "In the course of the run"
     return Text({"before": "Before", "after": "At the end"}.get(picture, reason))
 
 

@@ -31,7 +31,7 @@ from ...model.results.moving import still_moving_note
 from ...model.scenario import Zone
 from ...model.schema import given
 from ...model.structure.zone_fragments import NO_SAFETY_DISTANCE
-from ...model.terrain.built import facts_from, terrain_summary
+from ...model.terrain.built import terrain_summary
 from ...texts import DOWN, UP, Quantity, Text, distance_to_keep
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section, facts
 from ..run_folder import ReportedRun
@@ -247,7 +247,7 @@ def terrain_section(run: ReportedRun) -> Section | None:
     under, ground = bodies_under_ground(results), results.ground()
     blocks: list[Block] = []
     if run.summary and run.summary.terrain:
-        blocks.append(facts("Ground", terrain_summary(facts_from(run.summary.terrain)), "terrain"))
+        blocks.append(facts("Ground", terrain_summary(run.summary.terrain), "terrain"))
     if ground.surfaces:
         rows = [
             (

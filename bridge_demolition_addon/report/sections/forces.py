@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Any
 
@@ -25,6 +25,7 @@ from ...model.results.force_history import (
     contact_forces,
     most_loaded,
 )
+from ...model.results.records import BearingOfRun
 from ...model.run_folder.logs import LoggedForces
 from ...model.scenario.scenario import bearing_tables
 from ...model.structure.bearing_ranges import ONE_CUT
@@ -48,7 +49,7 @@ def bearing_blocks(run: ReportedRun) -> list[Block]:
     """Return a table and a chart of all bearings of a run; none without `[[bearings]]`."""
     of_all = bearing_histories(run.recorded, bearing_tables(run.scenario) if run.scenario else ())
     histories = [bearing for bearing in of_all if np.isfinite(bearing.forces_n[1:]).any()]
-    extremes = run.summary.bearings if run.summary else []
+    extremes = run.summary.bearings if run.summary else ()
     blocks: list[Block] = []
     if extremes:
         blocks += [_extremes(extremes), Paragraph(_NOTES), Paragraph(ONE_CUT)]
@@ -70,24 +71,31 @@ def bearing_blocks(run: ReportedRun) -> list[Block]:
     return blocks
 
 
-def _extremes(bearings: Sequence[Mapping[str, Any]]) -> DataTable:
-    def scaled(key: str, factor: float) -> Callable[[Mapping[str, Any]], float | None]:
-        return lambda bearing: None if bearing.get(key) is None else factor * bearing[key]
-
+def _extremes(bearings: Sequence[BearingOfRun]) -> DataTable:
     columns = (
-        Column("bearing", "bearing", "", lambda bearing: bearing["name"]),
-        Column("up at rest", "at_rest_up_kN", ".1f", scaled("at_rest_up_N", 1e-3)),
-        Column("least", "least_up_kN", ".1f", scaled("least_up_N", 1e-3)),
-        Column(Text("largest", context="force"), "largest_up_kN", ".1f", scaled("largest_up_N", 1e-3)),
+        Column("bearing", "bearing", "", lambda bearing: bearing.name),
+        Column("up at rest", "at_rest_up_kN", ".1f", scaled("at_rest_up_n", 1e-3)),
+        Column("least", "least_up_kN", ".1f", scaled("least_up_n", 1e-3)),
+        Column(Text("largest", context="force"), "largest_up_kN", ".1f", scaled("largest_up_n", 1e-3)),
         Column("at", "largest_up_s", ".3f", scaled("largest_up_s", 1.0)),
-        Column("largest horizontal", "largest_horizontal_kN", ".1f", scaled("largest_horizontal_N", 1e-3)),
-        Column("largest moment", "largest_moment_y_kNm", ".1f", scaled("largest_moment_y_Nm", 1e-3)),
+        Column("largest horizontal", "largest_horizontal_kN", ".1f", scaled("largest_horizontal_n", 1e-3)),
+        Column("largest moment", "largest_moment_y_kNm", ".1f", scaled("largest_moment_y_nm", 1e-3)),
         Column("opened", "largest_open_percent", ".0f", scaled("largest_open_share", 100.0)),
         Column("displacement", "largest_displacement_mm", ".1f", scaled("largest_displacement_m", 1e3)),
         Column("slid", "slip_mm", ".1f", scaled("slip_m", 1e3)),
         Column("left at the end", "left_percent", ".0f", scaled("left_share", 100.0)),
     )
     return DataTable.of("bearings", "Bearings", columns, bearings)
+
+
+def scaled(name: str, factor: float = 1.0) -> Callable[[Any], float | None]:
+    """Return what gives a field of a record by a factor; None where it is not known."""
+
+    def value(record: Any) -> float | None:
+        found: float | None = getattr(record, name)
+        return None if found is None else factor * found
+
+    return value
 
 
 def _means(histories: Sequence[BearingHistory]) -> DataTable:
@@ -218,18 +226,15 @@ def _hit_blocks(run: ReportedRun) -> list[Block]:
     if not hits:
         return [Paragraph("The ball hit nothing, or its hits were not recorded.")]
 
-    def scaled(key: str, factor: float = 1.0) -> Callable[[Mapping[str, Any]], float | None]:
-        return lambda hit: factor * hit[key] if key in hit else None
-
     columns = (
-        Column("ball", "ball", "", lambda hit: hit["ball"]),
+        Column("ball", "ball", "", lambda hit: hit.ball),
         Column("time", "time_s", ".3f", scaled("time_s")),
         Column("lasted", "lasted_ms", ".1f", scaled("lasted_s", 1e3)),
         Column("speed", "approach_m_s", ".2f", scaled("approach_m_s")),
-        Column("impulse", "impulse_kNs", ".2f", scaled("impulse_Ns", 1e-3), unit="kN·s"),
-        Column("raw peak", "raw_peak_force_MN", ".2f", scaled("raw_peak_force_N", 1e-6), unit="MN"),
-        Column("half sine", "half_sine_peak_force_MN", ".2f", scaled("half_sine_peak_force_N", 1e-6), unit="MN"),
-        Column("Hertz", "hertz_peak_force_MN", ".2f", scaled("hertz_peak_force_N", 1e-6), unit="MN"),
+        Column("impulse", "impulse_kNs", ".2f", scaled("impulse_ns", 1e-3), unit="kN·s"),
+        Column("raw peak", "raw_peak_force_MN", ".2f", scaled("raw_peak_force_n", 1e-6), unit="MN"),
+        Column("half sine", "half_sine_peak_force_MN", ".2f", scaled("half_sine_peak_force_n", 1e-6), unit="MN"),
+        Column("Hertz", "hertz_peak_force_MN", ".2f", scaled("hertz_peak_force_n", 1e-6), unit="MN"),
     )
     notes = Text(
         "The impulse of a hit does not depend on the step of the physics, the raw peak does. Half sine: the "
@@ -243,9 +248,12 @@ def _hit_blocks(run: ReportedRun) -> list[Block]:
 
 def _stress_blocks(run: ReportedRun) -> list[Block]:
     results, moments = run.recorded, []
-    if run.ball.impact_s is not None:
+    if run.ball.impact is not None:
         moments.append(
-            (int(np.abs(results.frames.time_s - run.ball.impact_s).argmin()), Text("in the frame of the ball's impact"))
+            (
+                int(np.abs(results.frames.time_s - run.ball.impact.time_s).argmin()),
+                Text("in the frame of the ball's impact"),
+            )
         )
     peaks = most_loaded(results.frames.loads.body_peak_sums_n, results.inventory.of_kind("shard"), 1)
     if peaks:

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from functools import partial
-from typing import Any
 
 from ...charts.reinforced_sections import draw_sections, sections_to_draw
 from ...engineering.reinforced_concrete.materials import (
@@ -20,6 +19,7 @@ from ...model.bridge.preparation import prepared_members
 from ...model.reinforcement.concrete_members import plain_concrete_text
 from ...model.reinforcement.design import bar_schedule
 from ...model.reinforcement.schedule import Schedule, ScheduledBars, ScheduledLinks, named_text, steel_facts
+from ...model.results.records import BarsOfKind, TendonOfRun
 from ...model.scenario import BridgeReinforcement, Scenario
 from ...model.scenario.scenario import rules_of_bars
 from ...texts import Quantity, Text, joined
@@ -121,19 +121,19 @@ def bar_blocks(run: ReportedRun) -> list[Block]:
     bars = run.summary.reinforcement if run.summary else None
     if not bars:
         return []
-    if not bars["cracked"]:
-        return [Paragraph(Text("None of the {} connections with bars cracked.", bars["with_bars"]))]
-    return [_by_kind(bars["by_kind"]), Paragraph(_BAR_NOTES)]
+    if not bars.cracked:
+        return [Paragraph(Text("None of the {} connections with bars cracked.", bars.with_bars))]
+    return [_by_kind(bars.by_kind), Paragraph(_BAR_NOTES)]
 
 
-def _by_kind(kinds: Sequence[Mapping[str, Any]]) -> DataTable:
+def _by_kind(kinds: Sequence[BarsOfKind]) -> DataTable:
     columns = (
-        Column("member", "member_kind", "", lambda kind: Text(kind["kind"])),
-        Column("cracked", "cracked", "", lambda kind: kind["cracked"]),
-        Column("yielded", "yielded", "", lambda kind: kind["yielded"]),
-        Column("ruptured", "ruptured", "", lambda kind: kind["ruptured"]),
-        Column("in part", "ruptured_in_part", "", lambda kind: kind["ruptured_in_part"]),
-        Column("held at the end", "held_at_end", "", lambda kind: kind["held_at_end"]),
+        Column("member", "member_kind", "", lambda kind: Text(kind.kind)),
+        Column("cracked", "cracked", "", lambda kind: kind.cracked),
+        Column("yielded", "yielded", "", lambda kind: kind.yielded),
+        Column("ruptured", "ruptured", "", lambda kind: kind.ruptured),
+        Column("in part", "ruptured_in_part", "", lambda kind: kind.ruptured_in_part),
+        Column("held at the end", "held_at_end", "", lambda kind: kind.held_at_end),
     )
     return DataTable.of("cracked_connections", "Cracked connections with bars, by kind of member", columns, kinds)
 
@@ -147,28 +147,28 @@ _DANGER = Text(
 )
 
 _TENDON_COLUMNS = (
-    Column("Tendon", "tendon", "", lambda tendon: tendon["name"]),
-    Column("in", "member", "", lambda tendon: tendon["member"]),
-    Column("force", "force_kN", ".0f", lambda tendon: tendon["force_N"] / _KILO),
-    Column("energy", "stored_kJ", ".1f", lambda tendon: tendon["stored_J"] / _KILO),
+    Column("Tendon", "tendon", "", lambda tendon: tendon.name),
+    Column("in", "member", "", lambda tendon: tendon.member),
+    Column("force", "force_kN", ".0f", lambda tendon: tendon.force_n / _KILO),
+    Column("energy", "stored_kJ", ".1f", lambda tendon: tendon.stored_j / _KILO),
     Column(Text("let go", context="energy"), "released_kJ", ".1f", lambda tendon: _released_j(tendon) / _KILO),
-    Column("at", "first_s", ".3f", lambda tendon: tendon["released"][0]["time_s"] if tendon["released"] else None),
+    Column("at", "first_s", ".3f", lambda tendon: tendon.released[0].time_s if tendon.released else None),
     Column("how", "how", "", lambda tendon: _how(tendon)),
 )
 
 
 def tendon_section(run: ReportedRun) -> Section | None:
     """Return the section; None without tendons."""
-    tendons = run.summary.tendons if run.summary else []
+    tendons = run.summary.tendons if run.summary else ()
     if not tendons:
         return None
     table = DataTable.of("tendons", "Tendons, and the energy that they let go in this run", _TENDON_COLUMNS, tendons)
     return Section("Tendons", (Paragraph(_DANGER, is_notice=True), table))
 
 
-def _how(tendon: Mapping[str, Any]) -> str:
-    return joined("{}, {}", [Text(how) for how in dict.fromkeys(part["how"] for part in tendon["released"])])
+def _how(tendon: TendonOfRun) -> str:
+    return joined("{}, {}", [Text(how) for how in dict.fromkeys(part.how for part in tendon.released)])
 
 
-def _released_j(tendon: Mapping[str, Any]) -> float:
-    return math.fsum(part["energy_J"] for part in tendon["released"])
+def _released_j(tendon: TendonOfRun) -> float:
+    return math.fsum(part.energy_j for part in tendon.released)

@@ -16,7 +16,6 @@ from ...model.results.motion import MOVED_M, relative_to_ground, travel, without
 from ...model.results.moving import creep_summary, creep_text, still_moving_note
 from ...model.scenario import Scenario
 from ...model.sequence.ending import asleep_text
-from ...model.stages.stability import stability_texts
 from ...texts import Quantity, Text, joined
 from ..document.blocks import Block, Paragraph, Photo, Picture, facts
 from ..run_folder import ReportedRun
@@ -162,11 +161,11 @@ def _doubts(run: ReportedRun) -> Iterator[str]:
     results = run.recorded
     if len(results.frames) < 2:
         yield Text("Only one frame was recorded: nothing has moved yet, and there are no forces.")
-    stability = stability_texts(run.summary.values) if run.summary else ()
+    stability = run.summary.stability.texts if run.summary and run.summary.stability else ()
     yield from (Text("{}.", text) for text in stability)
     if not stability and run.scenario and (asleep := asleep_text(run.scenario)):  # of a run of an earlier version
         yield Text("{}.", asleep)
-    if text := creep_text({"creeping": creep_summary(without_removed(results)[0])}):
+    if text := creep_text(creep_summary(without_removed(results)[0])):
         yield Text("{}.", text)
     if np.isnan(results.frames.loads.body_sums_n[1:]).any():
         yield (

@@ -259,7 +259,7 @@ def colours_of(scene: bpy.types.Scene, run: OtherRun, row: int) -> np.ndarray:
 
 def _title_of(folder: Path) -> str:
     try:
-        return str(read_summary(folder).values["title"])
+        return read_summary(folder).title
     except (DemolitionError, OSError, ValueError, KeyError):  # a run that was killed has no summary
         return folder.name
 

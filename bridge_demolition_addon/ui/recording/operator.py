@@ -167,11 +167,11 @@ def end_with_results(operator: bpy.types.Operator, recording: Recording, *, stop
         folder = _keep_recording(recording, completed=not (recording.error or stopped))
     except (DemolitionError, OSError) as error:  # a full disk, for one
         return refused(operator, recording.error or error)
-    summary = session.last_recording().summary.values
+    summary = session.last_recording().summary
     warnings = [
         f"The recording ended early: {recording.error}" if recording.error else stopped,
         *doubts_of_run(summary),
-        creep_text(summary),
+        creep_text(summary.creeping),
         _changed_bodies_text(recording),
     ]
     if by_hand := edits_beside_bodies(_contexts[recording].made_by_hand, recording.changed_bodies):
@@ -203,7 +203,7 @@ def _keep_recording(recording: Recording, *, completed: bool) -> Path:
     summary = run_summary(recording, results, context, completed=completed)
     with lock_in_place(_locks.pop(recording)) as lock:
         keep_recording(lock.folder, recording, summary, context)
-    session.keep_recording(lock.folder, recording, RunSummary(summary))
+    session.keep_recording(lock.folder, recording, RunSummary.of(summary))
     return lock.folder
 
 
@@ -330,7 +330,7 @@ class BDA_OT_render_run(RenderingTask, bpy.types.Operator):
     def begin(self, context: bpy.types.Context) -> int:
         last = session.last_recording()
         self._folder = last.folder
-        key_frame, last_frame = last.summary.key_frame, last.recording.last_frame
+        key_frame, last_frame = last.summary.key_frame.frame, last.recording.last_frame
         view = view_of(last.recording)
         self._pictures: Iterator[Path] = rendered_pictures(context.scene, last.folder, view, key_frame, last_frame)
         return len(PICTURES)

@@ -5,10 +5,11 @@ Blender forgets the frames that it played with many a change, and would show the
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from operator import attrgetter
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import bpy
 
@@ -16,11 +17,12 @@ from ...engineering.units import kilonewtons
 from ...errors import DemolitionError, OutputError, UnreadableError
 from ...model.results.arrays import Results
 from ...model.results.collapse import ConnectionCounts
-from ...model.results.extremes import bars_text
+from ...model.results.records import BearingOfRun
+from ...model.results.stability import STANDS
 from ...model.run_folder.files import SUMMARY_FILE
 from ...model.run_folder.summary import RunSummary, read_summary
+from ...model.schema import given
 from ...model.sequence.ending import doubts_of_run
-from ...model.stages.stability import STANDS, stability_texts
 from ...simulation.blender_events import contours_of, shown_results
 from ...simulation.kept_run import digest_of_run, folder_of_run, has_run, results_of_run
 from ..languages.words import translated
@@ -53,6 +55,9 @@ class LargestValue(NamedTuple):
     body: str
     frame: int
 
+
+_SHOWN = ("title", "mass_kg", "connections", "largest_resultant", "largest_throw", "frames", "substep_s", "fingerprint")
+"""What a summary has to have to be shown."""
 
 _read: dict[tuple[str, ...], ShownRun] = {}
 """The run read last, by its folder and digest, language and units: panels are drawn many times a second."""
@@ -93,27 +98,25 @@ class ShownRun:
     @classmethod
     def of(cls, folder: Path, summary: RunSummary, last_frame: int, results: Callable[[], Results]) -> ShownRun:
         """Put a summary into texts."""
-        try:
-            force, throw = summary.largest_force_n, summary.largest_throw_m
-            stability = stability_texts(summary.values)
-            stands = stability[:1] if summary.values.get("stability", {}).get("verdict") == STANDS else ()
-            return cls(
-                folder=folder,
-                title=str(summary.values["title"]),
-                summary=summary,
-                stands="".join(stands),
-                doubts=(*stability[len(stands) :], *doubts_of_run(summary.values)),
-                lines=tuple(lines_of(summary.values)),
-                peak_force=force and LargestValue(_force_text(force.value), force.body, force.frame),
-                largest_throw=throw and LargestValue(_throw_text(throw.value, summary.values), throw.body, last_frame),
-                explained_peak=explained_peak(summary.values),
-                bearings=bearing_rows(summary.bearings),
-                results=results,
-            )
-        except (KeyError, TypeError, ValueError) as error:
-            raise OutputError(
-                f"{folder / SUMMARY_FILE}: is not what a run writes: {error!r}; run the scene again"
-            ) from error
+        if lacking := sorted(set(_SHOWN) & set(summary.lacks)):
+            path, missing = folder / SUMMARY_FILE, ", ".join(lacking)
+            raise OutputError(f"{path}: is not what a run writes: has no {missing}; run the scene again")
+        force, throw = summary.largest_resultant, summary.largest_throw
+        stability = summary.stability.texts if summary.stability else ()
+        stands = stability[:1] if summary.stability and summary.stability.verdict == STANDS else ()
+        return cls(
+            folder=folder,
+            title=summary.title,
+            summary=summary,
+            stands="".join(stands),
+            doubts=(*stability[len(stands) :], *doubts_of_run(summary)),
+            lines=tuple(lines_of(summary)),
+            peak_force=force and LargestValue(_force_text(force.force_n), force.body, force.frame),
+            largest_throw=throw and LargestValue(_throw_text(throw.throw_m, summary), throw.body, last_frame),
+            explained_peak=explained_peak(summary),
+            bearings=bearing_rows(summary.bearings),
+            results=results,
+        )
 
 
 def shown_run(scene: bpy.types.Scene) -> ShownRun | None:
@@ -142,9 +145,9 @@ def forget_shown() -> None:
     _read.clear()
 
 
-def explained_peak(summary: Mapping[str, Any]) -> str:
+def explained_peak(summary: RunSummary) -> str:
     """Return in a sentence what the peak force is, and why the contours show another number."""
-    longest, shortest = summary["substep_s"], summary.get("shortest_substep_s") or summary["substep_s"]
+    longest, shortest = summary.substep_s, summary.shortest_substep_s or summary.substep_s
     length = f"{longest * _MS_PER_S:.3g}"
     if shortest < 0.999 * longest:  # frames have more or fewer
         length = translated("{} to {}").format(f"{shortest * _MS_PER_S:.3g}", length)
@@ -155,19 +158,17 @@ def explained_peak(summary: Mapping[str, Any]) -> str:
     return sentence.format(length)
 
 
-def bearing_rows(bearings: Sequence[Mapping[str, Any]]) -> tuple[tuple[str, ...], ...]:
+def bearing_rows(bearings: Sequence[BearingOfRun]) -> tuple[tuple[str, ...], ...]:
     """Return the table of bearings of a run, with its head: vertical forces at rest, least and largest; horizontal."""
-    keys = ("at_rest_up_N", "least_up_N", "largest_up_N", "largest_horizontal_N")
-    rows = [
-        (bearing["name"], *(_kilonewtons(bearing[key]) for key in keys), _happened(bearing)) for bearing in bearings
-    ]
+    forces_n = attrgetter("at_rest_up_n", "least_up_n", "largest_up_n", "largest_horizontal_n")
+    rows = [(bearing.name, *map(_kilonewtons, forces_n(bearing)), _happened(bearing)) for bearing in bearings]
     head = tuple(map(translated, ("Bearings, kN", "at rest", "least", "most", "sideways")))
     return ((*head, ""), *rows) if rows else ()
 
 
-def _throw_text(throw_m: float, summary: Mapping[str, Any]) -> str:
+def _throw_text(throw_m: float, summary: RunSummary) -> str:
     throw = length_text(throw_m, ".2f")
-    return translated("{}, not final").format(throw) if summary.get("moving_at_end") else throw
+    return translated("{}, not final").format(throw) if summary.moving_at_end else throw
 
 
 def _force_text(force_n: float) -> str:
@@ -178,26 +179,26 @@ def _kilonewtons(force_n: float | None) -> str:
     return translated("not known") if force_n is None else f"{force_n / _N_PER_KN:.1f}"
 
 
-def _happened(bearing: Mapping[str, Any]) -> str:
+def _happened(bearing: BearingOfRun) -> str:
     """What a bearing did, in few letters."""
-    if bearing["gone_s"] is not None:
-        return translated("gone at {} s").format(f"{bearing['gone_s']:.2f}")
-    percent = round(100.0 * bearing["largest_open_share"])
-    how_far = translated("opened") if bearing["opened"] else translated("opened by {} %").format(percent)
+    if bearing.gone_s is not None:
+        return translated("gone at {} s").format(f"{bearing.gone_s:.2f}")
+    percent = round(100.0 * bearing.largest_open_share)
+    how_far = translated("opened") if bearing.opened else translated("opened by {} %").format(percent)
     return translated(" and ").join(
-        filter(None, (how_far if percent else "", translated("slid") if bearing["slid"] else ""))
+        filter(None, (how_far if percent else "", translated("slid") if bearing.slid else ""))
     )
 
 
-def lines_of(summary: Mapping[str, Any]) -> list[str]:
+def lines_of(summary: RunSummary) -> list[str]:
     """Return the totals of a summary in short lines."""
-    creeping = summary.get("creeping")
+    bars, creeping = summary.reinforcement, summary.creeping
     return [
-        translated("Total mass: {}").format(mass_text(summary["mass_kg"]["shard"])),
-        counts_line(ConnectionCounts.of_summary(summary)),
-        *([translated("Bars: {}").format(bars)] if (bars := bars_text(summary)) else []),
-        translated("{} frames, {} s").format(summary["frames"], f"{summary['simulated_s']:.2f}"),
-        *([translated("Creeping at the end: {} shards").format(creeping["shards"])] if creeping else []),
+        translated("Total mass: {}").format(mass_text(given(summary.mass_kg)["shard"])),
+        counts_line(summary.counts),
+        *([translated("Bars: {}").format(bars.text)] if bars else []),
+        translated("{} frames, {} s").format(summary.frames, f"{summary.simulated_s:.2f}"),
+        *([translated("Creeping at the end: {} shards").format(creeping.shards)] if creeping else []),
     ]
 
 

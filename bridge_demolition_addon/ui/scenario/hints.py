@@ -12,11 +12,12 @@ import bpy
 from bpy.app.handlers import persistent
 
 from ...errors import DemolitionError
+from ...model.results.stability import COMES_DOWN, STANDS, Stability
 from ...model.scenario.connections import LARGE_MODEL, MATERIAL_OF_LARGE_MODELS
 from ...model.scenario.contacts import QUANTITIES
 from ...model.scenario.joint_settings import STRENGTH_KEYS
 from ...model.sequence.checked_model import checked_model
-from ...model.stages.stability import COMES_DOWN, STANDS, Stability, stability_of
+from ...model.stages.stability import stability_of
 from ...scene.as_built import has_all_bodies, keep_stability, kept_stability
 from ...simulation.blender_events import running_recording, shown_results
 from ...simulation.kept_run import has_run

@@ -5,7 +5,8 @@ import numpy as np
 import pytest
 from support.moving_boxes import moving_boxes
 
-from bridge_demolition_addon.model.results.collapse import collapse_progress, rest_of, spans_of
+from bridge_demolition_addon.model.results.collapse import Rested, collapse_progress, rest_of, spans_of
+from bridge_demolition_addon.model.run_folder.summary import RunSummary
 
 DECK = {"body_members": np.array(["deck"] * 4), "body_member_kinds": np.array(["deck"] * 3 + ["pier"])}
 
@@ -52,9 +53,10 @@ def test_rest_is_after_the_last_motion():
 
 def test_rest_is_when_the_run_found_it_by_energy():
     """So console, panel, summary, report and study say one time."""
-    assert rest_of(moving_until(3), {"came_to_rest_s": 1.5}).at_rest_s == 1.5
-    assert rest_of(moving_until(3), {"came_to_rest_s": None}).at_rest_s is None
-    assert rest_of(moving_until(3), {"title": "of an earlier version"}).at_rest_s == 2.0
+    assert rest_of(moving_until(3), Rested(1.5)).at_rest_s == 1.5
+    assert rest_of(moving_until(3), Rested(None)).at_rest_s is None
+    earlier = RunSummary.of({"title": "of an earlier version"})
+    assert rest_of(moving_until(3), earlier.rested).at_rest_s == 2.0
 
 
 def test_what_moves_at_the_end_is_not_at_rest():

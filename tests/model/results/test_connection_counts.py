@@ -9,8 +9,9 @@ from bridge_demolition_addon.engineering.elasticity.crack_state import CrackAccu
 from bridge_demolition_addon.model.results.arrays import Results
 from bridge_demolition_addon.model.results.collapse import ConnectionCounts
 from bridge_demolition_addon.model.results.force_history import breaking_by_kind
+from bridge_demolition_addon.model.run_folder.summary import RunSummary
 
-CRACKED = {"held_at_end": 51, "yielded": 6}
+CRACKED = {"with_bars": 60, "cracked": 51, "held_at_end": 51, "yielded": 6, "ruptured_in_part": 0, "ruptured": 0}
 
 
 def test_each_connection_counts_once():
@@ -41,7 +42,7 @@ def test_what_was_not_recorded_is_not_guessed():
 )
 def test_summaries_of_before_say_what_they_know(connections, reinforcement, text):
     summary = {"connections": {"count": 312, "broken": 51, **connections}, "reinforcement": reinforcement}
-    assert ConnectionCounts.of_summary(summary).text == f"{text} of 312 connections"
+    assert RunSummary.of(summary).counts.text == f"{text} of 312 connections"
 
 
 def test_kinds_of_connections_have_their_torn_ones():

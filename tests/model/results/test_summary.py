@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from support.sample_results import GRAVITY, G, changed, hanging_chain, without_connections
 
+from bridge_demolition_addon.model.results.records import BallHit, Moment
 from bridge_demolition_addon.model.results.summary import first_hit_s, impact_step, summarise
 
 BODY_SERIES = (
@@ -47,9 +48,9 @@ def test_a_shard_that_was_removed_is_not_thrown():
     [([1.508, 2.188], 1.508), ([0.3, 1.508], 1.508), ([], 1.542), ([2.188], 1.542)],
 )
 def test_the_first_hit_is_told_to_a_sub_step(hits, hit_s):
-    summary = {"impact": {"frame": 39, "time_s": 1.542}, "hits_of_the_ball": [{"time_s": time_s} for time_s in hits]}
-    assert first_hit_s(summary) == hit_s
-    assert first_hit_s(summary | {"impact": None}) is None
+    recorded = [BallHit("ball", time_s, 0.01, 5.0, 1e4, 1e6) for time_s in hits]
+    assert first_hit_s(Moment(1.542, 39), recorded) == hit_s
+    assert first_hit_s(None, recorded) is None
 
 
 def test_breaking_over_time():

@@ -9,6 +9,7 @@ from support.stage_folders import with_stages
 
 from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.lifts import Pick
+from bridge_demolition_addon.model.run_folder.summary import RunSummary
 from bridge_demolition_addon.model.scenario.file import scenario_from_text
 from bridge_demolition_addon.model.sequence.checked_model import ModelWorksite, checked_model
 from bridge_demolition_addon.model.sequence.ending import doubts_of_run
@@ -181,9 +182,12 @@ def test_the_crane_is_judged_by_the_larger_mass_and_both_are_said():
 
 
 def test_picks_that_differ_are_said_in_report_and_summary(tmp_path):
-    part = {"name": "strip", "weight_N": 9.80665 * 88134.0, "volume_weight_N": 9.80665 * 66406.0}
-    (said,) = doubts_of_run({"lifts": [part]})
-    assert said == Pick("strip", 88134.0, 66406.0).warning and doubts_of_run({"lifts": [{"name": "strip"}]}) == ()
+    hook = {"largest_hook_N": 1e6, "largest_hook_s": 2.0}
+    part = hook | {"name": "strip", "weight_N": 9.80665 * 88134.0, "volume_weight_N": 9.80665 * 66406.0}
+    (said,) = doubts_of_run(RunSummary.of({"lifts": [part]}))
+    assert said == Pick("strip", 88134.0, 66406.0).warning
+    earlier = hook | {"name": "strip", "weight_N": 864_300.0}
+    assert doubts_of_run(RunSummary.of({"lifts": [earlier]})) == ()
     folder = with_stages(tmp_path / "stages")
     values = dict.fromkeys(LIFT_COLUMNS, "1") | {"lift": "strip", "part_kg": "88134", "volume_kg": "66406"}
     for columns, times in ((LIFT_COLUMNS, 1), (LIFT_COLUMNS[:-1], 0)):  # earlier versions did not say

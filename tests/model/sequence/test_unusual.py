@@ -7,6 +7,7 @@ import pytest
 from support.scenarios import I235
 
 from bridge_demolition_addon.errors import ScenarioError
+from bridge_demolition_addon.model.run_folder.summary import RunSummary
 from bridge_demolition_addon.model.scenario import BlastZone, Charge, Equipment, Load, MemberCut, Neighbour
 from bridge_demolition_addon.model.sequence.checked_model import checked_model
 from bridge_demolition_addon.model.sequence.ending import first_doubts, unusable_texts
@@ -98,27 +99,35 @@ def test_what_is_unusual_is_said_in_every_language(values, text):
         assert all(translation.text(sentence) != sentence for sentence in said) and not translation.missing
 
 
+def doubts_of(values):
+    return first_doubts(RunSummary.of(values))
+
+
+def unusable(values):
+    return unusable_texts(RunSummary.of(values))
+
+
 def test_a_run_whose_shards_left_by_kilometres_is_not_to_be_used():
     thrown = {"largest_throw": {"throw_m": 1057e3, "body": "Shard 3"}, "moving_at_end": None, "simulated_s": 1.0}
-    rising = {"fastest_m_s": 4947.0, "body": "Shard 3", "shards": 1, "of_shards": 8}
-    assert first_doubts(thrown)[0].startswith("This run is not to be used: Shard 3 flew 1057.0 km")
-    assert first_doubts({"moving_at_end": rising})[0].startswith(
+    rising = {"fastest_m_s": 4947.0, "body": "Shard 3", "member": "deck", "shards": 1, "of_shards": 8, "mass_kg": 1e3}
+    assert doubts_of(thrown)[0].startswith("This run is not to be used: Shard 3 flew 1057.0 km")
+    assert doubts_of({"moving_at_end": rising})[0].startswith(
         "This run is not to be used: Shard 3 still moves at 4947 m/s"
     )
-    assert first_doubts(thrown | {"largest_throw": {"throw_m": 160.0, "body": "Shard 3"}}) == ()
+    assert doubts_of(thrown | {"largest_throw": {"throw_m": 160.0, "body": "Shard 3"}}) == ()
     for language in ("de", "es", "fr", "zh_hans"):
         translation = Translation.into(language)
-        assert translation.text(first_doubts(thrown)[0]) and not translation.missing
+        assert translation.text(doubts_of(thrown)[0]) and not translation.missing
 
 
 def test_what_makes_a_run_unusable_is_said_of_quiet_runs_too():
     made = {"energy": {"made_by_solver": {"share_of_dissipated": 0.592}}, "moving_at_end": None, "simulated_s": 1.0}
     thrown = made | {"largest_throw": {"throw_m": 1057e3, "body": "Shard 3"}}
-    starts = [text.split(":")[0] for text in unusable_texts(thrown)]
+    starts = [text.split(":")[0] for text in unusable(thrown)]
     assert starts == ["This run is not to be used", "This run is not to be used for distances"]
-    assert "59.2 %" in unusable_texts(made | {"largest_throw": {"throw_m": 1.0, "body": "Shard 3"}})[0]
+    assert "59.2 %" in unusable(made | {"largest_throw": {"throw_m": 1.0, "body": "Shard 3"}})[0]
     less = {"energy": {"made_by_solver": {"share_of_dissipated": 0.049}}}
-    assert unusable_texts(thrown | less | {"largest_throw": {"throw_m": 1.0, "body": "Shard 3"}}) == ()
+    assert unusable(thrown | less | {"largest_throw": {"throw_m": 1.0, "body": "Shard 3"}}) == ()
 
 
 @pytest.mark.parametrize("name", USUAL)

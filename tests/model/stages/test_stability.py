@@ -10,6 +10,7 @@ from support.stage_beams import DENSITY_KG_M3, MODULUS_M3, STRENGTH_PA, WEIGHT_N
 
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.model.bridge.preparation import prepared_members
+from bridge_demolition_addon.model.run_folder.summary import RunSummary
 from bridge_demolition_addon.model.scenario import Charge, ConnectionSettings
 from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.model.sequence.ending import left_alone
@@ -20,7 +21,6 @@ from bridge_demolition_addon.model.stages.stability import (
     UNKNOWN,
     Stability,
     stability_of,
-    stability_texts,
 )
 
 pytestmark = pytest.mark.slow
@@ -129,8 +129,9 @@ def test_a_verdict_is_stored_as_json_and_read_again(tmp_path):
     found = stability_of(blocks(tmp_path, ("block", (2, 1, 1), (0, 0, 3))))
     stored = json.loads(json.dumps(found.to_json()))
     assert Stability.of_json(stored) == found
-    assert stability_texts({"stability": stored}) == (found.sentence,)
-    assert stability_texts({"stability": None}) == stability_texts({}) == ()
+    summary = RunSummary.of({"stability": stored})
+    assert summary.stability == found and found.texts == (found.sentence,)
+    assert RunSummary.of({"stability": None}).stability is RunSummary().stability is None
 
 
 def test_a_mesh_that_ends_within_a_millimetre_of_the_ground_is_held_by_it(tmp_path):

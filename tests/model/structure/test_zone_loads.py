@@ -10,12 +10,13 @@ from support.drilled_columns import LOAD_N, ZONE, column_members, column_model, 
 
 from bridge_demolition_addon.engineering.geometry.solids import box
 from bridge_demolition_addon.model.bridge.member import Member
+from bridge_demolition_addon.model.results.stability import Stability, ZoneLoad
 from bridge_demolition_addon.model.scenario import Support
 from bridge_demolition_addon.model.sequence.checked_model import ModelWorksite
-from bridge_demolition_addon.model.stages.stability import Stability, stability_of
+from bridge_demolition_addon.model.stages.stability import stability_of
 from bridge_demolition_addon.model.structure.blast_zones import placed_zone, zone_totals
 from bridge_demolition_addon.model.structure.model import build_model
-from bridge_demolition_addon.model.structure.zone_loads import ZoneLoad, load_facts, zone_falls
+from bridge_demolition_addon.model.structure.zone_loads import load_facts, zone_falls
 
 G = 9.80665
 WEIGHT_N_M = 0.49 * 2400.0 * G

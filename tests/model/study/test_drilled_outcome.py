@@ -9,6 +9,7 @@ from support.moving_boxes import moving_boxes
 
 from bridge_demolition_addon.model.bridge.preparation import prepared_members
 from bridge_demolition_addon.model.optimise.file import total_charge_kg
+from bridge_demolition_addon.model.run_folder.summary import RunSummary
 from bridge_demolition_addon.model.scenario import Neighbour
 from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.model.study.outcome import evaluate
@@ -24,7 +25,7 @@ SUMMARY = {"largest_resultant": None, "energy": None, "connections": {"count": 2
 
 def outputs_of(scenario):
     still = moving_boxes([0, 1], [(10, 4, 1), (1, 1, 1)], [[(0, 0, 5), (0, 0, 6)]] * 2)
-    return evaluate(still, SUMMARY, scenario).outputs
+    return evaluate(still, RunSummary.of(SUMMARY), scenario).outputs
 
 
 def test_drilled_charges_shake_neighbours():

@@ -11,6 +11,7 @@ from support.scenarios import I235
 from bridge_demolition_addon.errors import OutputError
 from bridge_demolition_addon.model.blast.charges import Charge
 from bridge_demolition_addon.model.blast.receptors import loads_at
+from bridge_demolition_addon.model.run_folder.summary import RunSummary
 from bridge_demolition_addon.model.scenario import Neighbour, Zone
 from bridge_demolition_addon.model.study.criteria import Criterion
 from bridge_demolition_addon.model.study.outcome import Outlines, evaluate
@@ -33,7 +34,7 @@ def thrown(*places, size=(1.0, 1.0, 1.0), rotations=None, **more):
 
 
 def outputs_of(results, scenario=BARE, summary=SUMMARY, **more):
-    return evaluate(results, summary, scenario, **more).outputs
+    return evaluate(results, RunSummary.of(summary), scenario, **more).outputs
 
 
 def test_the_reach_is_the_farthest_on_the_way_and_not_where_debris_comes_to_rest():
@@ -61,7 +62,7 @@ def test_a_box_that_turns_reaches_as_far_as_its_corner():
 
 
 def test_nothing_that_moved_reaches_nowhere():
-    outcome = evaluate(thrown((0, 0, 6), (0.05, 0, 6)), SUMMARY, BARE)
+    outcome = evaluate(thrown((0, 0, 6), (0.05, 0, 6)), RunSummary.of(SUMMARY), BARE)
     assert outcome.outputs["reach_m"] == outcome.outputs["largest_throw_m"] == 0.0
     assert outcome.outlines.resting == outcome.outlines.swept == ()
     assert np.ptp(outcome.outlines.bridge[0], axis=0) == pytest.approx(DECK[:2], abs=1e-3)
@@ -88,7 +89,7 @@ def test_shards_that_were_removed_are_no_debris():
 
 
 def test_outlines_are_those_of_the_boxes():
-    outcome = evaluate(thrown((0, 0, 6), (12, 0, 3), (12, 9, 0.5)), SUMMARY, BARE)
+    outcome = evaluate(thrown((0, 0, 6), (12, 0, 3), (12, 9, 0.5)), RunSummary.of(SUMMARY), BARE)
     (resting,) = outcome.outlines.resting
     np.testing.assert_allclose([resting.min(axis=0), resting.max(axis=0)], [(11.5, 8.5), (12.5, 9.5)], atol=1e-3)
     (swept,) = outcome.outlines.swept
@@ -98,7 +99,7 @@ def test_outlines_are_those_of_the_boxes():
 
 
 def test_outlines_are_kept_to_a_thousandth_of_a_millimetre_and_read_back():
-    outlines = evaluate(thrown((0, 0, 6), (12, 0, 3), (12, 9, 0.5)), SUMMARY, BARE).outlines
+    outlines = evaluate(thrown((0, 0, 6), (12, 0, 3), (12, 9, 0.5)), RunSummary.of(SUMMARY), BARE).outlines
     again = Outlines.of_arrays(outlines.arrays())
     for name in ("bridge", "resting", "swept"):
         for one, other in zip(getattr(outlines, name), getattr(again, name), strict=True):

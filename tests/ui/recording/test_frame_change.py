@@ -11,6 +11,7 @@ from support.checkout import SMALL
 
 from bridge_demolition_addon.display.contours import ContourSettings
 from bridge_demolition_addon.model.results.arrays import load_results
+from bridge_demolition_addon.model.run_folder.summary import RunSummary
 from bridge_demolition_addon.simulation.blender_events import running_recording, shown_results
 from bridge_demolition_addon.ui.results.shown_run import explained_peak, lines_of
 
@@ -209,9 +210,9 @@ def test_results_tell_the_totals(built, tmp_path):
     record(built)
     summary = json.loads((tmp_path / "results" / "summary.json").read_text())
     # The deck is 9 m x 4 m x 0.4 m, and each of two piers 0.8 m x 2 m x 3 m, of 2400 kg/m³.
-    assert lines_of(summary)[0] == "Total mass: 57 600 kg"
+    assert lines_of(RunSummary.of(summary))[0] == "Total mass: 57 600 kg"
     broken, count = summary["connections"]["broken"], len(built.context.scene.rigidbody_world.constraints.objects)
-    assert lines_of(summary)[1] == f"Torn: {broken} of {count} connections"
+    assert lines_of(RunSummary.of(summary))[1] == f"Torn: {broken} of {count} connections"
 
 
 def test_the_peak_force_of_the_results_is_that_of_contours_with_peaks(built, tmp_path):
@@ -227,7 +228,7 @@ def test_the_peak_force_of_the_results_is_that_of_contours_with_peaks(built, tmp
     assert max(shown) == pytest.approx(means.max(), rel=1e-6)
     assert max(shown) < last.max(), "an impact lasts a part of a frame"
     # 1/240 s: the small bridge has 24 frames a second and the default of ten sub-steps.
-    assert "worst sub-step, of 4.17 ms" in explained_peak(summary)
+    assert "worst sub-step, of 4.17 ms" in explained_peak(RunSummary.of(summary))
 
 
 def test_charts_are_drawn_into_the_folder(built, tmp_path):

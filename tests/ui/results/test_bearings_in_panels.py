@@ -1,20 +1,27 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the panels Results and Stages say of bearings."""
 
+from dataclasses import replace
+
+from bridge_demolition_addon.model.results.records import BearingOfRun
 from bridge_demolition_addon.ui.results.shown_run import bearing_rows
 from bridge_demolition_addon.ui.stages import reaction_cells_of
 
-STANDS = {
-    "name": "deck on pier 1",
-    "at_rest_up_N": 178_040.0,
-    "least_up_N": -20_000.0,
-    "largest_up_N": 250_000.0,
-    "largest_horizontal_N": 1_500.0,
-    "opened": False,
-    "largest_open_share": 0.0,
-    "slid": False,
-    "gone_s": None,
-}
+STANDS = BearingOfRun(
+    name="deck on pier 1",
+    at_rest_up_n=178_040.0,
+    least_up_n=-20_000.0,
+    largest_up_n=250_000.0,
+    largest_horizontal_n=1_500.0,
+    largest_moment_y_nm=0.0,
+    largest_displacement_m=0.0,
+    left_share=1.0,
+    opened=False,
+    opened_s=None,
+    largest_open_share=0.0,
+    slid=False,
+    gone_s=None,
+)
 NUMBERS = ("178.0", "-20.0", "250.0", "1.5")
 
 
@@ -26,11 +33,11 @@ def test_results_show_forces_and_what_happened():
         ({"slid": None}, ""),
         ({"opened": True, "largest_open_share": 1.0, "gone_s": 0.52}, "gone at 0.52 s"),
     )
-    head, *rows = bearing_rows([STANDS | changed for changed, _ in others])
+    head, *rows = bearing_rows([replace(STANDS, **changed) for changed, _ in others])
     assert head == ("Bearings, kN", "at rest", "least", "most", "sideways", "")
     assert rows == [("deck on pier 1", *NUMBERS, said) for _, said in others]
     assert bearing_rows([]) == ()
-    _, slept = bearing_rows([STANDS | {"at_rest_up_N": None}])
+    _, slept = bearing_rows([replace(STANDS, at_rest_up_n=None)])
     assert slept[1:3] == ("not known", "-20.0")
 
 
