@@ -9,7 +9,7 @@ import pytest
 from scipy.stats import spearmanr
 from support.checkout import EXAMPLES, ROOT, said_of
 
-from bridge_demolition_addon.model.sequence.rest import FASTEST
+from bridge_demolition_addon.model.sequence.ending import FASTEST
 from bridge_demolition_addon.model.study.conclusions import debris_limit
 from bridge_demolition_addon.model.study.file import read_study
 from bridge_demolition_addon.model.study.runs_table import REACH, RESTED, read_runs

@@ -12,7 +12,7 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import FigureBase
 
 from ..engineering.blast.pulses import BlastModel
-from ..engineering.terrain.recorded import RecordedGround
+from ..engineering.terrain.surface import RecordedGround
 from ..model.blast.charges import Charge
 from ..model.blast.receptors import PlaceLoads, distinct_thresholds, peak_overpressures, ring_radii
 from ..model.scenario import Neighbour

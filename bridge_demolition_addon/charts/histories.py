@@ -1,8 +1,13 @@
-"""Charts over the time of a run: forces, breaking, heights of spans, progress of the collapse, and energy."""
+"""Charts over the time of a run: forces, breaking, heights of spans, progress of the collapse, energy, moving ground.
+
+The time axis of a chart is kept with its picture, so that a click on the picture can be read as a time.
+"""
 
 from __future__ import annotations
 
+import struct
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -10,6 +15,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure, FigureBase
 
+from ..engineering.ground_motion import GroundRecord
+from ..model.ground_motion.settings import DIRECTIONS, DesignSpectrum
+from ..model.ground_motion.sources import design_spectrum, response_spectrum
 from ..model.results.arrays import Results
 from ..model.results.collapse import Span
 from ..model.results.energy import Energy
@@ -17,7 +25,6 @@ from ..model.results.force_history import BreakingByKind, ContactForces, largest
 from ..system.disk import whole_file
 from ..texts import Text, Unit
 from .style import blank_figure, lay_out, line_style, plain
-from .time_axis import KEY, TimeAxis
 
 _MOST_KINDS = 7
 """Kinds of connections that have a line of their own."""
@@ -183,3 +190,109 @@ def _finish(figure: FigureBase, axes: Axes, impact_s: float | None, columns: int
     if axes.get_ylim()[0] > 0.0:
         axes.set_ylim(bottom=0.0)
     figure.legend(loc="outside lower center", ncols=columns, frameon=False, fontsize=8)
+
+
+KEY = "bda time axis"
+"""Keyword of the text in the picture (PNG) that says where the axis lies."""
+
+_SIGNATURE = b"\x89PNG\r\n\x1a\n"
+_LENGTH, _NAME, _CHECK = 4, 4, 4
+_IMAGE_BEGINS = b"IDAT"
+
+
+@dataclass(frozen=True, slots=True)
+class TimeAxis:
+    """Where an axis lies in its picture, as shares of the width from the left, and the times at its ends, s."""
+
+    left: float
+    right: float
+    begin_s: float
+    end_s: float
+
+    @classmethod
+    def of(cls, axes: Axes) -> TimeAxis:
+        """Return the axis of a chart that is laid out for good."""
+        box, (begin_s, end_s) = axes.get_position(), axes.get_xlim()
+        return cls(float(box.x0), float(box.x1), float(begin_s), float(end_s))
+
+    @classmethod
+    def read(cls, path: Path) -> TimeAxis | None:
+        """Return the axis that a picture was written with; None where it has none, or is no picture."""
+        try:
+            text = _texts(path.read_bytes()).get(KEY)
+            return cls(*map(float, text.split())) if text else None
+        except (OSError, struct.error, TypeError, ValueError):
+            return None
+
+    @property
+    def text(self) -> str:
+        """The axis as it is kept."""
+        return f"{self.left:.6f} {self.right:.6f} {self.begin_s:.6f} {self.end_s:.6f}"
+
+    def time_at(self, share: float) -> float | None:
+        """Return the time, s, at a share of the picture's width; None beside the axis."""
+        if not self.left <= share <= self.right:
+            return None
+        return self.begin_s + (share - self.left) / (self.right - self.left) * (self.end_s - self.begin_s)
+
+
+def _texts(picture: bytes) -> dict[str, str]:
+    """Return the texts of a PNG by their keywords, up to where its pixels begin."""
+    found, begin = {}, len(_SIGNATURE)
+    if not picture.startswith(_SIGNATURE):
+        return {}
+    while begin + _LENGTH + _NAME <= len(picture):
+        length, name = struct.unpack_from(">I4s", picture, begin)
+        if name == _IMAGE_BEGINS:
+            break
+        first = begin + _LENGTH + _NAME
+        if name == b"tEXt":
+            keyword, _, text = picture[first : first + length].partition(b"\0")
+            found[keyword.decode("latin-1")] = text.decode("latin-1")
+        begin = first + length + _CHECK
+    return found
+
+
+_PERIODS_S = 0.05 * 80.0 ** np.linspace(0.0, 1.0, 120)
+
+
+def moving_directions(record: GroundRecord) -> list[int]:
+    """Return the axes along which the ground moves."""
+    return np.flatnonzero(record.accelerations_m_s2.any(axis=0)).tolist()
+
+
+def ground_motion_history(figure: FigureBase, record: GroundRecord, start_s: float) -> None:
+    """Draw how the ground is accelerated, how fast it is and where, over the time of the run."""
+    rows = figure.subplots(3, 1, sharex=True)
+    quantities = (
+        (Text("acceleration ({})", Unit("m/s²")), record.accelerations_m_s2),
+        (Text("velocity ({})", Unit("m/s")), record.velocities_m_s),
+        (Text("displacement ({})", Unit("m")), record.displacements_m),
+    )
+    for axes, (label, values) in zip(rows, quantities, strict=True):
+        for number, axis in enumerate(moving_directions(record)):
+            axes.plot(start_s + record.times_s, values[:, axis], **line_style(number, 0.9), label=DIRECTIONS[axis])
+        axes.set_ylabel(label)
+        axes.grid(color="0.9", linewidth=0.5)
+        axes.set_axisbelow(True)
+    rows[-1].set_xlabel(Text("time (s)"))
+    rows[0].legend(frameon=False, ncols=3, loc="lower right", bbox_to_anchor=(1.0, 0.98), borderaxespad=0.2)
+
+
+def response_spectra(figure: FigureBase, record: GroundRecord, wanted: DesignSpectrum | None, factor: float) -> None:
+    """Draw the response spectrum of a record for 5 % damping, and the one that it was made from, times a factor."""
+    axes = figure.subplots()
+    step_s = float(np.diff(record.times_s).min())
+    times = np.arange(0.0, record.duration_s, step_s)
+    for number, axis in enumerate(moving_directions(record)):
+        even = np.interp(times, record.times_s, record.accelerations_m_s2[:, axis])
+        spectrum = response_spectrum(even, step_s, _PERIODS_S)
+        axes.semilogx(_PERIODS_S, spectrum, **line_style(number), label=DIRECTIONS[axis])
+    if wanted:
+        shape = factor * design_spectrum(wanted, _PERIODS_S)
+        axes.semilogx(_PERIODS_S, shape, color="0.5", linewidth=2.5, label="EN 1998-1, 5 %")
+    axes.set_xlabel(Text("period (s)"))
+    axes.set_ylabel(Text("largest acceleration ({})", Unit("m/s²")))
+    axes.grid(color="0.9", linewidth=0.5, which="both")
+    axes.set_axisbelow(True)
+    axes.legend(frameon=False)

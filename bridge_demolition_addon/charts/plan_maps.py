@@ -17,11 +17,11 @@ from matplotlib.ticker import MaxNLocator
 from matplotlib.tri import Triangulation
 
 from ..engineering.geometry.plan_areas import outlines
-from ..engineering.terrain.recorded import RecordedGround
+from ..engineering.terrain.surface import RecordedGround
 from ..engineering.units import rounded_up
-from ..model.debris.exclusion import ExclusionZone
 from ..model.debris.footprint import plan_hulls
 from ..model.debris.throws import Debris, HeightMap
+from ..model.debris.zones import ExclusionZone
 from ..model.results.arrays import Results
 from ..texts import Quantity, Text, Unit
 from .style import MM_PER_INCH, MM_PER_POINT, PAGE_WIDTH_MM, blank_figure, lay_out, plain

@@ -7,8 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..engineering.blast.drop_test import station_distances_m
-from ..engineering.blast.site_law import CONFIDENCE, SiteLaw, scaled_by_root
+from ..engineering.blast.site_law import CONFIDENCE, SiteLaw, scaled_by_root, station_distances_m
 from ..engineering.units import STANDARD_GRAVITY_M_S2
 from ..errors import BlastError, OutputError
 from ..model.blast.site_events import SiteEvents, law_of_file

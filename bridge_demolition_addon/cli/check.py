@@ -52,7 +52,7 @@ from ..studies.estimate import (
 )
 from ..system.progress import Progress
 from .arguments import naming
-from .blender import simulation_module
+from .console import simulation_module
 from .progress import StepsOfLongWork
 
 _STEPS = 3

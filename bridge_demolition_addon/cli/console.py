@@ -1,11 +1,21 @@
-"""Standard streams that outlive their reader, and the end of a process whose clean-up may hang or crash."""
+"""What the command line shares with the system: its streams, the end of its process, and Blender where it is needed.
+
+Standard streams outlive their reader; the clean-up of a process with Blender in it may hang or crash.
+"""
 
 import io
 import os
 import sys
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
+from importlib import import_module
+from tempfile import gettempdir
+from types import ModuleType
 from typing import Any, NoReturn, Self
+
+from ..errors import SimulationError
+from ..system.processor import on_one_core
+from ..system.signals import interrupted_afterwards
 
 
 class StandardStream(io.TextIOWrapper):
@@ -56,3 +66,18 @@ def end_process(status: int) -> NoReturn:
         kernel.TerminateProcess.argtypes = (ctypes.c_void_p, ctypes.c_uint)
         kernel.TerminateProcess(kernel.GetCurrentProcess(), status)
     os._exit(status)
+
+
+def simulation_module(name: str, *, one_thread: bool = False) -> ModuleType:
+    """Return a module of `simulation`: scenarios can be read and checked where Blender is not installed.
+
+    A command that renders nothing has it with `one_thread`, where Blender was not loaded before.
+    """
+    gettempdir()  # a run needs it when it saves its scene: without one it is refused before it begins
+    try:
+        with interrupted_afterwards(), on_one_core() if one_thread else nullcontext():
+            return import_module(f"...simulation.{name}", __name__)
+    except ModuleNotFoundError as error:
+        if error.name != "bpy":
+            raise
+        raise SimulationError("Blender is not there: install the bpy package or run inside Blender") from error

@@ -26,7 +26,7 @@ from ..report.languages.translation import ENGLISH, Translation
 from ..system.progress import Progress
 from ..texts import Quantity, Text, distance_to_keep
 from .arguments import add_report_options, naming
-from .blender import simulation_module
+from .console import simulation_module
 from .progress import progress_on
 
 COMPARISON = "comparison"

@@ -12,7 +12,7 @@ import numpy as np
 from ..engineering.arrays import FloatArray, IntArray
 from ..engineering.geometry.mesh import TriangleMesh
 from ..engineering.geometry.solids import box, cylinder
-from ..engineering.terrain.recorded import RecordedGround
+from ..engineering.terrain.surface import RecordedGround
 from ..model.results.arrays import Results
 from ..model.results.motion import without_removed
 from ..model.structure.finishes import ROAD_KINDS

@@ -12,7 +12,7 @@ import numpy as np
 from ..engineering.arrays import FloatArray
 from ..engineering.geometry.mesh import TriangleMesh
 from ..engineering.geometry.solids import box
-from ..engineering.terrain.recorded import RecordedGround
+from ..engineering.terrain.surface import RecordedGround
 from ..model.results.arrays import Results
 from .dressing import DrawnPart, Stuff, rod
 from .moved_surfaces import boxes_of_bodies

@@ -13,8 +13,8 @@ from ..engineering.geometry.plan_areas import outlines
 from ..engineering.geometry.proximity import ranges
 from ..engineering.geometry.vectors import length
 from ..engineering.statistics.probability_map import ProbabilityMap
-from ..engineering.terrain.recorded import RecordedGround
-from ..model.debris.exclusion import ExclusionZone, widened, widened_around
+from ..engineering.terrain.surface import RecordedGround
+from ..model.debris.zones import ExclusionZone, widened, widened_around
 from ..model.scenario import Exclusion, Zone
 from .colour_scale import ColourMap, colours
 

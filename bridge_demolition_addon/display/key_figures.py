@@ -10,7 +10,7 @@ from manifold3d import CrossSection
 
 from ..engineering.geometry.plan_areas import distances_outside
 from ..engineering.geometry.vectors import length
-from ..engineering.terrain.recorded import RecordedGround
+from ..engineering.terrain.surface import RecordedGround
 from ..model.debris.footprint import corners_at, footprint, straightened
 from ..model.results.arrays import Results
 from ..model.results.collapse import ConnectionCounts, Rested, ShardRest, rest_of

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..engineering.arrays import FloatArray
 from ..engineering.geometry.solids import box
-from ..engineering.terrain.recorded import RecordedGround
+from ..engineering.terrain.surface import RecordedGround
 from .dressing import DrawnPart, Stuff
 
 STRIPES = 5

@@ -18,22 +18,27 @@ from ..engineering.units import mass_text
 from ..model.bridge.member import Member
 from ..model.scenario.bearings import PINNED, ROCKER, Bearing
 from ..model.schema import FARTHEST_M, SHORTEST_LENGTH_M, given
-from .added_supports import KIND, under_bearing, under_ends, with_one_pinned
 from .bearings import BearingElement, BearingTables, bearing_of, bearing_tables, seated, with_one_fixed
-from .bodies import Bodies
+from .bodies import Bodies, is_sound, writable
 from .contacts import NearbyMembers
-from .element_materials import ElementMaterial
+from .element_materials import ElementMaterial, MaterialTable
 from .elements import Element
-from .file_digits import is_sound, writable
 from .gaps import WAYS, close_small_gaps, closed_gaps
 from .haunches import decks_with_haunches, with_haunches
 from .kinds import ElementFacts
-from .loose_groups import BELOW_GROUND_M, loose_groups
-from .materials import MaterialTable
-from .missing_bearings import pads_under, with_one_support_pinned
 from .outcome import ADDED, BAR, CONNECTION, LEFT_OUT, MEMBER, Outcome
 from .placement import Placement
 from .quantities import Quantities
+from .supports import (
+    BELOW_GROUND_M,
+    KIND,
+    loose_groups,
+    pads_under,
+    under_bearing,
+    under_ends,
+    with_one_pinned,
+    with_one_support_pinned,
+)
 
 _SAME = 0.99
 """Part of two members' volumes that they have in common where one is the other's double."""

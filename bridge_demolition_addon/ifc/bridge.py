@@ -23,25 +23,20 @@ from ..model.scenario import (
     TimeSettings,
 )
 from ..model.schema import given
-from .added_supports import CLEARANCE_M
-from .approach_slabs import leave_out_clamping_slabs
 from .assembly import Assembly
-from .bars import bar_layers
+from .bars import bar_layers, with_bars_by_rule
 from .bodies import Bodies, bodies_of
 from .contacts import NearbyMembers
-from .element_materials import substances
+from .element_materials import MaterialTable, material_table, substances
 from .elements import Element, elements_of, plain_text
 from .fineness import fracture_of
-from .joint_plates import leave_out_plates
 from .kinds_by_shape import with_kinds_by_shape
-from .light_bracing import leave_out_light_bracing
+from .left_out import leave_out_clamping_slabs, leave_out_light_bracing, leave_out_plates
 from .likely_units import with_likely_unit
 from .map_place import ground_of, site_of
-from .materials import MaterialTable, material_table
 from .outcome import BAR, CONNECTION, LEFT_OUT, MEMBER, Outcome
 from .placement import Placement, placement_of
 from .quantities import quantities_of, units_of
-from .rule_bars import with_bars_by_rule
 from .settings import ImportSettings
 from .several_bridges import CARRYING, chosen_elements
 from .shapes import KeptShapes, shapes_of
@@ -57,7 +52,7 @@ from .steel_frames import (
     with_no_bearings_on,
 )
 from .steel_notes import by_reason, steel_notes
-from .supports import STANDING, loose_members, supports_of
+from .supports import CLEARANCE_M, STANDING, loose_members, supports_of
 
 MESH_FOLDER = "members"
 

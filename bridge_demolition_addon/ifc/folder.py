@@ -22,9 +22,9 @@ from ..model.mesh_reading import read_mesh
 from ..model.scenario.file import read_scenario
 from ..model.toml_tables import tables_text
 from ..system.disk import write_whole_text, writing
+from .bars import notes_on_bars
 from .bridge import MESH_FOLDER, ImportedBridge
 from .outcome import ADDED, BAR, CONNECTION, LEFT_OUT, MEMBER, Outcome
-from .rule_bars import notes_on_bars
 
 SCENARIO_FILE = "scenario.toml"
 ELEMENTS_FILE = "elements.csv"

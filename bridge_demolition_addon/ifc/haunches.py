@@ -13,7 +13,7 @@ from ..engineering.geometry.plan_areas import signed_area
 from ..engineering.geometry.solids import from_manifold, to_manifold
 from ..engineering.terrain.surface import Surface
 from ..model.bridge.member import Member
-from .file_digits import sound_simplified
+from .bodies import sound_simplified
 
 HIGHEST_M = 0.35
 """Gap up to which a deck is taken to lie on a girder: haunches of prestressed girders with camber are up to so high."""

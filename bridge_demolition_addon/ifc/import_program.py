@@ -16,11 +16,10 @@ from typing import Any
 
 from ..errors import DemolitionError, text_of
 from .bridge import read_bridge
-from .element_materials import substances
+from .element_materials import material_table, substances
 from .elements import Element, elements_of
 from .folder import write_bridge
 from .import_process import MARK
-from .materials import material_table
 from .settings import ImportSettings
 from .several_bridges import bridges_in
 from .shapes import KeptShapes

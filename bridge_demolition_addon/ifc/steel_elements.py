@@ -29,9 +29,9 @@ from .element_materials import ElementMaterial
 from .elements import NO_BODIES, Element
 from .library import library
 from .placement import Placement
+from .profiles import section_of_profile
 from .representations import CONTRADICTIONS, representations_of
 from .source import IfcSource
-from .steel_profiles import section_of_profile
 
 _CLASSES = ("IfcBeam", "IfcMember", "IfcColumn")
 _NO_BARS = ("parapet", "footing", "approach slab", "fill", "bearing")

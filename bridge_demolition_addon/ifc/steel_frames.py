@@ -24,7 +24,7 @@ from ..model.scenario.steelwork import SteelMember, SteelNode, Steelwork
 from ..model.schema import given
 from .assembly import Assembly
 from .contacts import NearbyMembers
-from .joint_plates import JOINT_GAP_M, JointPlate
+from .left_out import JOINT_GAP_M, JointPlate
 from .outcome import BAR, CONNECTION, MEMBER, Outcome
 from .steel_elements import SteelElement
 from .steel_notes import UNKNOWN_GRADE, SaidFrame

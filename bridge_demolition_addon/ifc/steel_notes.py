@@ -14,7 +14,7 @@ from ..engineering.steelwork.bar_frames import BarAxes, BarFrame
 from ..engineering.units import mass_text
 from ..model.schema import given
 from .assembly import Assembly
-from .joint_plates import JointPlate
+from .left_out import JointPlate
 from .steel_elements import SteelElement
 from .steel_supports import BarSupport
 

@@ -18,14 +18,13 @@ from ..engineering.geometry.vectors import dot, length
 from ..model.bridge.member import Member
 from ..model.scenario.bearings import FIXED, PINNED, ROCKER, SLIDING, Bearing
 from ..model.scenario.joint_settings import GROUND_NAME
-from .added_supports import WIDEST_M
 from .assembly import Assembly
 from .bearings import HIGHEST_PLINTH_M
 from .contacts import NearbyMembers
-from .loose_groups import BELOW_GROUND_M, loose_groups
 from .outcome import CONNECTION
 from .several_bridges import CARRYING
 from .steel_elements import SteelElement
+from .supports import BELOW_GROUND_M, WIDEST_M, loose_groups
 
 _UPRIGHT = 0.7
 """Vertical part of the direction of a bar from which on it stands, and does not lie."""

@@ -9,8 +9,8 @@ import numpy as np
 
 from ..engineering.terrain.raster import contour_lines
 from ..errors import OutputError
-from ..model.debris.exclusion import ExclusionZone
 from ..model.debris.throws import debris_of
+from ..model.debris.zones import ExclusionZone
 from ..model.results.moving import still_moving_note
 from ..model.results.stability import ZoneLoad
 from ..model.run_folder.files import DXF_FILE, GEOJSON_FILE

@@ -22,7 +22,7 @@ from ..engineering.geometry.plan_areas import outlines, signed_area, united
 from ..engineering.geometry.solids import to_manifold
 from ..errors import GeometryError, ScenarioError
 from ..model.bridge.preparation import prepared_members
-from ..model.debris.exclusion import widened, widened_around
+from ..model.debris.zones import widened, widened_around
 from ..model.scenario import Scenario, Site
 from ..model.structure.charge_plan import charge_plan
 from ..model.structure.zone_fragments import fragment_areas, zone_areas

@@ -15,8 +15,8 @@ from ..engineering.geometry.solids import box
 from ..model.scenario import GroundSurface, ShardSettings, SurfaceValues
 from ..model.scenario.kept import values_text
 from ..model.terrain.built import TerrainFacts
+from .collections import make_named, numbered_names
 from .custom_properties import kept_numbers, kept_values
-from .naming import make_named, numbered_names
 
 _KIND = "bda_kind"
 _MEMBER = "bda_member"

@@ -1,4 +1,7 @@
-"""Custom properties: Blender data keeps in them what it was made with, and users can edit them in Blender's panel."""
+"""Custom properties: Blender data keeps in them what it was made with, and users can edit them in Blender's panel.
+
+A scene keeps in them the tables by which a run does what is planned, until a recording applies them.
+"""
 
 from __future__ import annotations
 
@@ -10,7 +13,9 @@ import bpy
 import numpy as np
 
 from ..errors import ScenarioError, SimulationError
-from ..model.scenario.kept import values_from_text
+from ..model.actions import PlannedAction
+from ..model.scenario.kept import tables_from_text, tables_text, values_from_text
+from ..model.scenario.scenario import run_tables
 from ..model.schema import LARGEST_NUMBER
 
 
@@ -63,3 +68,26 @@ def kept_number(holder: bpy.types.ID, name: str, default: float) -> float:
 def edited(holder: bpy.types.ID, name: str, expected: str) -> SimulationError:
     """Return the error that a property holds something else than expected."""
     return SimulationError(f"{holder.name}: its custom property {name} was edited: expected {expected}; undo that")
+
+
+def keep_run_tables(scene: bpy.types.Scene, tables: Sequence[PlannedAction]) -> None:
+    """Keep tables in the scene, and so in its file, in place of those of before; a recording of it applies them."""
+    for name in run_tables():
+        keep_tables(scene, name, [table for table in tables if table.kept_in == name])
+
+
+def keep_tables(scene: bpy.types.Scene, name: str, tables: Sequence[PlannedAction]) -> None:
+    """Keep the tables of one name in place of those of before."""
+    keep(scene, _property(name), tables_text(tables) if tables else None)
+
+
+def run_tables_of(scene: bpy.types.Scene, name: str) -> tuple[Any, ...]:
+    """Return the tables that a scene keeps under a name."""
+    try:
+        return tables_from_text(scene.get(_property(name), ""), run_tables()[name])
+    except ScenarioError as error:
+        raise edited(scene, _property(name), f"the text that the add-on wrote ({error})") from error
+
+
+def _property(name: str) -> str:
+    return f"bda_{name}"

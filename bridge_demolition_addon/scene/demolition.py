@@ -43,7 +43,7 @@ from .connections.elasticity import (
     keep_tendons,
     name_bearings,
 )
-from .run_tables import keep_run_tables, run_tables_of
+from .custom_properties import keep_run_tables, run_tables_of
 from .tools.ball import create_ball
 from .tools.build_site import BuildSite
 from .tools.cables import create_cables

@@ -8,11 +8,11 @@ from .as_built import forget_built_bodies, keep_stability
 from .blast.force_fields import force_collection, force_objects
 from .bodies import bodies_of, is_marked
 from .connections.constraints import Breaking, constraints_of, ends_of, keep_breaking, loose_connections
+from .custom_properties import keep_run_tables
 from .rendering.dust import remove_dust
 from .rendering.markers import clear_markers, remove_zones
 from .rendering.materials import remove_unused_materials
 from .rendering.surroundings import clear_surroundings
-from .run_tables import keep_run_tables
 from .world import START_FRAME, remove_world, stop_animation
 
 

@@ -45,9 +45,9 @@ from .connections.elasticity import (
     soil_of,
     tendons_of,
 )
+from .custom_properties import run_tables_of
 from .effective_scenario import with_bodies, with_duration, with_first_frame, with_speed, with_time_step
 from .inventory import take_inventory
-from .run_tables import run_tables_of
 from .tools.ground_motion import GroundMotionOfScene, ground_motion_of
 from .world import TimeOfScene, time_of
 

@@ -13,7 +13,7 @@ from ..engineering.timing.time_left import Pace, speeds_to_come
 from ..engineering.timing.timeline import substeps_within
 from ..errors import SimulationError
 from ..model.results.frames import Frame
-from ..model.sequence.rest import Rest
+from ..model.sequence.ending import Rest
 from ..scene.world import farthest_per_substep_of, start_over, time_step_at
 from .blender_events import running_recording, start_recording, stop_recording
 from .recording.recorder import Recording

@@ -21,8 +21,7 @@ from ..model.results.summary import settling, summarise
 from ..model.run_folder.own_code import own_code
 from ..model.scenario import Scenario
 from ..model.schema import given
-from ..model.sequence.ending import fell_by_itself, undone_at_end
-from ..model.sequence.rest import Rest, last_event_s
+from ..model.sequence.ending import Rest, fell_by_itself, last_event_s, undone_at_end
 from ..model.structure.settlement import settlements
 from ..scene.as_built import kept_stability
 from ..scene.bodies import terrain_facts

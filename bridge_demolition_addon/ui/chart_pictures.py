@@ -154,7 +154,7 @@ def share_clicked(window: bpy.types.Window, mouse_x: int, mouse_y: int) -> float
 def go_to_peak(context: bpy.types.Context, share: float) -> str:
     """Go to the largest force on a shard near a share of the chart's width, and return in a sentence what it is."""
     # Loading matplotlib takes a second, which switching the extension on need not wait for.
-    from ..charts.time_axis import TimeAxis
+    from ..charts.histories import TimeAxis
 
     scene = context.scene
     axis = TimeAxis.read(chart_of(scene))

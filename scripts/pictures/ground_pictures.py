@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from bridge_demolition_addon.charts.ground_motion import ground_motion_history, response_spectra
+from bridge_demolition_addon.charts.histories import ground_motion_history, response_spectra
 from bridge_demolition_addon.charts.style import blank_figure, line_style
 from bridge_demolition_addon.engineering.core.calls import call
 from bridge_demolition_addon.engineering.foundations import Footings, SoilSprings

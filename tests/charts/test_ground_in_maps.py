@@ -10,8 +10,7 @@ from matplotlib.figure import Figure
 from bridge_demolition_addon.charts.plan_maps import draw_ground, plan_axes
 from bridge_demolition_addon.engineering.geometry.mesh import TriangleMesh
 from bridge_demolition_addon.engineering.terrain.levelling import Levelled
-from bridge_demolition_addon.engineering.terrain.recorded import NamedSurface, RecordedGround
-from bridge_demolition_addon.engineering.terrain.surface import Surface
+from bridge_demolition_addon.engineering.terrain.surface import NamedSurface, RecordedGround, Surface
 from bridge_demolition_addon.model.results.records import record_of
 from bridge_demolition_addon.model.terrain.built import TerrainFacts, terrain_summary
 

@@ -10,8 +10,7 @@ import pytest
 from matplotlib.image import imread
 from support.sample_results import FRAME_S, G, changed, hanging_chain, without_connections
 
-from bridge_demolition_addon.charts.histories import plot_forces
-from bridge_demolition_addon.charts.time_axis import TimeAxis
+from bridge_demolition_addon.charts.histories import TimeAxis, plot_forces
 from bridge_demolition_addon.model.results.frames import FrameSeries
 
 pytestmark = pytest.mark.slow

@@ -12,7 +12,7 @@ from bridge_demolition_addon.charts.blast_maps import overpressure_map
 from bridge_demolition_addon.charts.plan_maps import exclusion_map
 from bridge_demolition_addon.engineering.blast.pulses import BlastModel
 from bridge_demolition_addon.model.blast.charges import Charge
-from bridge_demolition_addon.model.debris.exclusion import ExclusionZone, widened
+from bridge_demolition_addon.model.debris.zones import ExclusionZone, widened
 from bridge_demolition_addon.model.scenario import Neighbour, Zone
 
 pytestmark = pytest.mark.slow

@@ -8,7 +8,7 @@ import pytest
 from support.run_folders import TOLD, flying_shards, keep_run
 
 from bridge_demolition_addon.cli.main import main
-from bridge_demolition_addon.engineering.blast.drop_test import station_distances_m
+from bridge_demolition_addon.engineering.blast.site_law import station_distances_m
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.model.debris.touchdown import landings, shaking_at
 from bridge_demolition_addon.model.scenario import VibrationLaw

@@ -7,8 +7,7 @@ import pytest
 from bridge_demolition_addon.display.approaches import LENGTH_M, bank
 from bridge_demolition_addon.display.dressing import Stuff
 from bridge_demolition_addon.engineering.geometry.mesh import TriangleMesh
-from bridge_demolition_addon.engineering.terrain.recorded import RecordedGround
-from bridge_demolition_addon.engineering.terrain.surface import Surface
+from bridge_demolition_addon.engineering.terrain.surface import RecordedGround, Surface
 
 EDGES_M, TOP_M = (-3.5, 3.5), 5.0
 

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from bridge_demolition_addon.display.dust import Puff, chips_of
-from bridge_demolition_addon.engineering.terrain.recorded import RecordedGround
+from bridge_demolition_addon.engineering.terrain.surface import RecordedGround
 
 FLAT = RecordedGround(None, ())
 CLOUD = Puff(12, (3.0, 1.0, 6.0), 1.0)

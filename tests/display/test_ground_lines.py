@@ -21,8 +21,7 @@ from bridge_demolition_addon.display.ground_lines import (
     zone_lines,
 )
 from bridge_demolition_addon.engineering.geometry.mesh import TriangleMesh
-from bridge_demolition_addon.engineering.terrain.recorded import RecordedGround
-from bridge_demolition_addon.engineering.terrain.surface import Surface
+from bridge_demolition_addon.engineering.terrain.surface import RecordedGround, Surface
 from bridge_demolition_addon.model.scenario import Exclusion, Zone
 
 SQUARE = ((0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0))

@@ -6,8 +6,7 @@ import pytest
 
 from bridge_demolition_addon.display.scale_bar import scale_bar
 from bridge_demolition_addon.engineering.geometry.mesh import TriangleMesh
-from bridge_demolition_addon.engineering.terrain.recorded import RecordedGround
-from bridge_demolition_addon.engineering.terrain.surface import Surface
+from bridge_demolition_addon.engineering.terrain.surface import RecordedGround, Surface
 
 FLAT = RecordedGround()
 CORNERS = np.array(((-50.0, -50.0, -5.0), (50.0, -50.0, 5.0), (50.0, 50.0, 5.0), (-50.0, 50.0, -5.0)))

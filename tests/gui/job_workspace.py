@@ -64,7 +64,7 @@ def to_the_peak(person: Person) -> Steps:
         bpy.ops.bda.go_to_peak("INVOKE_DEFAULT")
     yield 0.5
     results = module("ui.results.shown_run").shown_run(person.scene).results()
-    axis = module("charts.time_axis").TimeAxis.read(chart(person))
+    axis = module("charts.histories").TimeAxis.read(chart(person))
     time_s = float(results.frames.time_s[list(results.frames.number).index(largest.frame)])
     share = axis.left + (time_s - axis.begin_s) / (axis.end_s - axis.begin_s) * (axis.right - axis.left)
     area = next(area for area in person.window.screen.areas if area.type == "IMAGE_EDITOR")

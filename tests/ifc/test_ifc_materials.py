@@ -6,7 +6,7 @@ from support.ifc_bridges import VOLUMES_M3, IfcBridge, whole_bridge
 
 from bridge_demolition_addon.errors import IfcError, OutputError
 from bridge_demolition_addon.ifc.bridge import read_bridge
-from bridge_demolition_addon.ifc.materials import material_table, write_material_table
+from bridge_demolition_addon.ifc.element_materials import material_table, write_material_table
 from bridge_demolition_addon.ifc.settings import ImportSettings
 
 

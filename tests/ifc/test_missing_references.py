@@ -9,9 +9,8 @@ from support.ifc_bridges import CONCRETE_KG_M3, MASS_KG, STEEL_KG_M3, VOLUMES_M3
 from bridge_demolition_addon.errors import IfcError
 from bridge_demolition_addon.ifc.bridge import read_bridge
 from bridge_demolition_addon.ifc.elements import elements_of
-from bridge_demolition_addon.ifc.linear_placements import place_along_curves
 from bridge_demolition_addon.ifc.settings import ImportSettings
-from bridge_demolition_addon.ifc.source import open_source
+from bridge_demolition_addon.ifc.source import open_source, place_along_curves
 
 EDITIONS = {
     "IFC2X3": ("IFC2X3_TC1", "IFC2X3_FINAL", "ifc2x3", " IFC2X3 "),

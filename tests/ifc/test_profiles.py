@@ -8,8 +8,8 @@ import ifcopenshell
 import pytest
 
 from bridge_demolition_addon.engineering.geometry.plan_areas import signed_area
-from bridge_demolition_addon.ifc.extrusions import extruded_mesh
 from bridge_demolition_addon.ifc.profiles import outline_of
+from bridge_demolition_addon.ifc.shapes import extruded_mesh
 from bridge_demolition_addon.ifc.source import IfcSource
 
 

@@ -10,9 +10,8 @@ from support.ifc_steel import CHS_168, HEB_200, IPE_300, SteelFile
 
 from bridge_demolition_addon.engineering.steelwork.catalogue import section_named
 from bridge_demolition_addon.ifc.bodies import bodies_of
-from bridge_demolition_addon.ifc.element_materials import substances
+from bridge_demolition_addon.ifc.element_materials import material_table, substances
 from bridge_demolition_addon.ifc.elements import elements_of
-from bridge_demolition_addon.ifc.materials import material_table
 from bridge_demolition_addon.ifc.placement import Placement
 from bridge_demolition_addon.ifc.settings import ImportSettings
 from bridge_demolition_addon.ifc.shapes import KeptShapes, shapes_of

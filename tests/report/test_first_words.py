@@ -15,7 +15,7 @@ from support.run_folders import TOLD, flying_shards, keep_run
 from support.study_folders import told_runs, told_study
 
 from bridge_demolition_addon.model.debris.throws import debris_of
-from bridge_demolition_addon.model.results.records import Moment
+from bridge_demolition_addon.model.results.records import MomentOfRun
 from bridge_demolition_addon.model.scenario import Exclusion
 from bridge_demolition_addon.report.document.blocks import DataTable, Document, Paragraph
 from bridge_demolition_addon.report.ensemble.document import doubts_of
@@ -119,7 +119,7 @@ def test_every_page_of_a_run_begins_with_its_doubts_and_sets_the_cordon_against_
     for (moves, made), ((stopped, start_s), ending) in product(kept, ENDINGS.items()):
         scenario = scenario_of(drilled, start_s, cordon_m)
         read = kept[moves, made]
-        hit = Moment(0.5, 14) if start_s < END_S else None
+        hit = MomentOfRun(0.5, 14) if start_s < END_S else None
         summary = replace(read.summary, completed=not stopped, impact=hit)
         run = replace(read, scenario=scenario, summary=summary, ball=summary)
         findings = findings_section(run, debris[moves], {}, flyrock if drilled else None)

@@ -6,9 +6,10 @@ import pytest
 
 @pytest.fixture
 def naming(blender):
-    from bridge_demolition_addon.scene import naming
 
-    return naming
+    from bridge_demolition_addon.scene import collections
+
+    return collections
 
 
 def make(blender, naming, names):

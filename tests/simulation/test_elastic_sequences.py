@@ -22,7 +22,7 @@ from bridge_demolition_addon.model.scenario import Jackhammer, Load, Removal, Sa
 from bridge_demolition_addon.scene.bodies import mark_member
 from bridge_demolition_addon.scene.connections.constraints import Breaking, keep_breaking, set_joints, set_strength
 from bridge_demolition_addon.scene.connections.elasticity import keep_elasticity
-from bridge_demolition_addon.scene.run_tables import keep_tables
+from bridge_demolition_addon.scene.custom_properties import keep_tables
 from bridge_demolition_addon.scene.tools.build_site import BuildSite
 from bridge_demolition_addon.scene.tools.jackhammer import create_jackhammer
 

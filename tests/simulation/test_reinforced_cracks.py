@@ -15,7 +15,7 @@ from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.model.scenario import SawCut, Weakening
 from bridge_demolition_addon.scene.connections.constraints import Breaking, keep_breaking
 from bridge_demolition_addon.scene.connections.elasticity import keep_elasticity
-from bridge_demolition_addon.scene.run_tables import keep_tables
+from bridge_demolition_addon.scene.custom_properties import keep_tables
 
 GRAVITY = float(np.float32(STANDARD_GRAVITY_M_S2))
 CONCRETE = ElasticModuli(30e9, 0.2)

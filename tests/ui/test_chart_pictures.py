@@ -6,7 +6,7 @@ import pytest
 from matplotlib.image import imread
 from support.checkout import SMALL
 
-from bridge_demolition_addon.charts.time_axis import TimeAxis
+from bridge_demolition_addon.charts.histories import TimeAxis
 from bridge_demolition_addon.errors import OutputError
 from bridge_demolition_addon.model.results.arrays import load_results
 from bridge_demolition_addon.ui.chart_pictures import chart_of, go_to_peak, pictures_of

@@ -5,9 +5,9 @@ import pytest
 from support.checkout import SMALL
 
 from bridge_demolition_addon.model.scenario import Scenario
-from bridge_demolition_addon.ui import panel_places
-from bridge_demolition_addon.ui.panel_places import TREE, parent_of, tables_below
+from bridge_demolition_addon.ui import sidebar
 from bridge_demolition_addon.ui.scenario.prop import shown_tables
+from bridge_demolition_addon.ui.sidebar import TREE, parent_of, tables_below
 
 
 @pytest.fixture
@@ -34,13 +34,13 @@ def test_the_tab_has_a_head_and_four_groups(panels):
 
 
 def test_what_most_people_need_is_in_a_group_and_the_rest_in_its_advanced(panels):
-    assert labels_in(panels, panel_places.BRIDGE) == [
+    assert labels_in(panels, sidebar.BRIDGE) == [
         *("Sizes", "Own Model", "Steelwork", "Site", "Zones", "Neighbours", "Exclusion Zone", "Advanced")
     ]
-    assert labels_in(panels, panel_places.RUN)[:3] == ["Run", "Results", "Report"]
-    assert labels_in(panels, panel_places.PLANNING) == ["Stages", "Study", "Search", "Optimise"]
-    assert "Fracture" in labels_in(panels, panel_places.BRIDGE_ADVANCED)
-    assert "Record by Hand" in labels_in(panels, panel_places.RUN_ADVANCED)
+    assert labels_in(panels, sidebar.RUN)[:3] == ["Run", "Results", "Report"]
+    assert labels_in(panels, sidebar.PLANNING) == ["Stages", "Study", "Search", "Optimise"]
+    assert "Fracture" in labels_in(panels, sidebar.BRIDGE_ADVANCED)
+    assert "Record by Hand" in labels_in(panels, sidebar.RUN_ADVANCED)
 
 
 def test_every_place_has_a_panel_and_every_panel_a_place(panels):
@@ -51,7 +51,7 @@ def test_every_place_has_a_panel_and_every_panel_a_place(panels):
 
 def test_every_table_of_a_scenario_has_a_place_of_its_own(panels):
     tables = {item.name for item in shown_tables(Scenario)}
-    groups = (panel_places.BRIDGE, panel_places.DEMOLITION, panel_places.RUN)
+    groups = (sidebar.BRIDGE, sidebar.DEMOLITION, sidebar.RUN)
     assert tables <= {name for group in groups for name in tables_below(group)}
 
 
@@ -105,11 +105,11 @@ def test_findings_come_into_view_once_a_study_has_a_folder(extension, settings, 
 def test_a_group_says_that_a_value_in_it_has_changed(built, settings):
     from bridge_demolition_addon.ui.scenario.built import has_changed
 
-    assert not has_changed(settings, tables_below(panel_places.BRIDGE))
+    assert not has_changed(settings, tables_below(sidebar.BRIDGE))
     settings.scenario.fracture.shards += 1
-    assert has_changed(settings, tables_below(panel_places.BRIDGE))
-    assert has_changed(settings, tables_below(panel_places.BRIDGE_ADVANCED))
-    assert not has_changed(settings, tables_below(panel_places.DEMOLITION))
+    assert has_changed(settings, tables_below(sidebar.BRIDGE))
+    assert has_changed(settings, tables_below(sidebar.BRIDGE_ADVANCED))
+    assert not has_changed(settings, tables_below(sidebar.DEMOLITION))
 
 
 def test_what_was_deleted_can_be_built_again_at_once(built, settings):

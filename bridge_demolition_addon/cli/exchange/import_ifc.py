@@ -5,9 +5,9 @@ import sys
 from pathlib import Path
 
 from ...errors import GeometryError, IfcError, ScenarioError
+from ...ifc.element_materials import write_material_table
 from ...ifc.folder import SCENARIO_FILE, check_new, folder_beside
 from ...ifc.import_process import import_bridge
-from ...ifc.materials import write_material_table
 from ...ifc.settings import KINDS, UNITS, ImportSettings
 from ...model.scenario.file import read_scenario
 from ...model.sequence.checked_model import checked_model

@@ -10,7 +10,7 @@ import numpy as np
 from manifold3d import CrossSection
 
 from ...engineering.geometry.plan_areas import FEWEST_CORNERS, outlines, united
-from ...engineering.terrain.recorded import RecordedGround
+from ...engineering.terrain.surface import RecordedGround
 from ...errors import OutputError
 from ..results.arrays import Results
 from ..results.motion import MOVED_M, OUT_OF_REACH_M, relative_to_ground, travel

@@ -17,7 +17,7 @@ from ...engineering.arrays import Rows
 from ...engineering.geometry.hulls import convex_hulls
 from ...engineering.geometry.plan_areas import distances_outside
 from ...engineering.geometry.vectors import dot, transformed
-from ...engineering.terrain.recorded import RecordedGround
+from ...engineering.terrain.surface import RecordedGround
 from ...texts import Text
 from ..results.arrays import Results
 from ..results.motion import MOVED_M, relative_to_ground, throw, travel

@@ -1,4 +1,9 @@
-"""Bodies that enter a zone, and when: convex hulls of moving bodies against a prism over a polygon."""
+"""Bodies that enter a zone, and when: convex hulls of moving bodies against a prism over a polygon; the exclusion zone.
+
+That is made of plan area, designed drop, predicted debris and a buffer, the four areas of BS 6187:2011, *Code of
+practice for full and partial demolition*. How wide the buffer has to be is for the engineer to say: the simulation
+knows neither pieces smaller than its shards nor what flies off at an impact.
+"""
 
 from __future__ import annotations
 
@@ -7,17 +12,17 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-from manifold3d import CrossSection, Manifold
+from manifold3d import CrossSection, JoinType, Manifold
 
 from ...engineering.arithmetic import cosine
 from ...engineering.arrays import Rows
-from ...engineering.geometry.plan_areas import signed_area
+from ...engineering.geometry.plan_areas import distances_outside, outlines, signed_area, united
 from ...engineering.geometry.solids import hull
 from ...engineering.geometry.vectors import length, rotated, rotation_vectors, transformed
 from ..results.arrays import Results
 from ..results.motion import relative_to_ground
-from ..scenario import Zone
-from .footprint import corners_at
+from ..scenario import Exclusion, Zone
+from .footprint import corners_at, footprint, swept_footprint
 
 TIME_TOLERANCE_S = 1e-3
 """How well an entry is placed in time between two recorded steps."""
@@ -172,3 +177,53 @@ def _entry_between(motion: _Motion, prism: _Prism, first: float, last: float) ->
     middle = (first + last) / 2.0
     earlier = _entry_between(motion, prism, first, middle)
     return _entry_between(motion, prism, middle, last) if earlier is None else earlier
+
+
+_CIRCLE_SEGMENTS = 64
+"""Corners of a full circle around a corner; they lie on the circle, so that its sides cut 0.1 % of the radius."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class ExclusionZone:
+    """Areas of an exclusion zone: the bridge's plan, the designed drop area with it, and debris at any time of the run.
+
+    The whole is all of these with the buffer around them.
+    """
+
+    plan: CrossSection
+    drop: CrossSection
+    debris: CrossSection
+    whole: CrossSection
+
+    @property
+    def largest_distance_m(self) -> float:
+        """Return the largest distance of the zone's edge from the bridge's plan."""
+        corners = np.concatenate(outlines(self.whole))
+        return float(distances_outside(self.plan, corners).max())
+
+    @property
+    def bounds_m(self) -> tuple[float, float, float, float]:
+        """Return smallest x and y, largest x and y."""
+        return tuple(self.whole.bounds())
+
+
+def exclusion_zone(results: Results, settings: Exclusion) -> ExclusionZone:
+    """Return the exclusion zone of a run."""
+    results = relative_to_ground(results)
+    shards = results.inventory.of_kind("shard")
+    plan = footprint(results, shards, 0)
+    drop = widened(plan, settings.designed_drop_m)
+    debris = swept_footprint(results, np.concatenate([shards, results.inventory.of_kind("ball")]))
+    return ExclusionZone(plan, drop, debris, widened(united([plan, drop, debris]), settings.buffer_m))
+
+
+def widened_around(area: CrossSection, distance_m: float) -> CrossSection:
+    """Return an area with everything nearer to it than a distance, and up to 0.13 % of that more: never less."""
+    return widened(area, distance_m / float(cosine(math.pi / _CIRCLE_SEGMENTS)))
+
+
+def widened(area: CrossSection, distance_m: float) -> CrossSection:
+    """Return an area with everything nearer to it than a distance."""
+    if distance_m <= 0.0:
+        return area
+    return area.offset(distance_m, JoinType.Round, circular_segments=_CIRCLE_SEGMENTS)

@@ -1,4 +1,4 @@
-"""The bars of a scenario: by the rule of its bridge or of its `[[geometry]]`, and as it gives them itself."""
+"""The bars of a scenario: by the rule of its bridge or its `[[geometry]]`, by ratios of steel, and as it gives them."""
 
 from __future__ import annotations
 
@@ -6,14 +6,18 @@ from collections.abc import Iterator, Sequence
 from functools import lru_cache
 from typing import TypeVar
 
+import numpy as np
+
 from ...engineering.mechanics.strength import NEWTON_PER_SQUARE_MILLIMETRE
 from ...engineering.reinforced_concrete.least_areas import USUAL_LARGEST_SHARE
 from ...engineering.reinforced_concrete.materials import Concrete
 from ...errors import ScenarioError
 from ...texts import Text
-from ..bridge.member import Member
+from ..bridge.member import Member, members_named, own_axes
 from ..materials import BarLayer, strengths
-from ..scenario import Bridge, Scenario
+from ..scenario import Bridge, RatiosOfMember, Scenario
+from ..scenario.arch import ARCH_KIND
+from ..scenario.bridge_checks import arch_axis
 from ..scenario.reinforcement import BarRule, BridgeReinforcement, GeometryReinforcement
 from ..scenario.scenario import bars_by_rule, rules_of_bars
 from ..schema import given
@@ -23,7 +27,6 @@ from .file_decks import file_deck_bars, file_deck_line
 from .file_members import FileDesign
 from .file_substructure import file_substructure_bars, loads_of_carriers
 from .load_paths import Seat, contacts_of, superstructures
-from .ratios import ratio_bars
 from .schedule import Schedule, ScheduledBars, ScheduledLinks, link_layers, row_text
 from .substructure import pier_bars, support_loads
 from .superstructure import deck_bars, deck_lines
@@ -202,3 +205,109 @@ def file_bars(
     rest = [index for index in sorted(of_concrete) if basis.members[index].name not in with_bars]
     rows += file_substructure_bars(basis, rest, loads_of_carriers(basis, lines))
     return rows, basis.sentences
+
+
+_MM2 = 1e6
+_PERCENT = 0.01
+_SIDES = {
+    "bottom_percent": ("bottom", "x"),
+    "top_percent": ("top", "x"),
+    "across_bottom_percent": ("bottom", "y"),
+    "across_top_percent": ("top", "y"),
+}
+_UPRIGHT_SIDES = ("start", "end", "right", "left")
+_REASON = "ratio"
+
+
+def ratio_bars(basis: DesignBasis) -> Iterator[ScheduledBars | ScheduledLinks]:
+    """Yield the bars and links of all members that ratios are given for; of the last that names it."""
+    tables: dict[int, RatiosOfMember] = {}
+    for table in basis.rule.ratios:
+        for index in members_named(table.member, basis.members, f"{table.table}.member"):
+            tables[index] = table
+    for index, table in sorted(tables.items()):
+        yield from _of_member(basis, basis.members[index], table)
+
+
+def _of_member(basis: DesignBasis, member: Member, table: RatiosOfMember) -> Iterator[ScheduledBars | ScheduledLinks]:
+    extents = _sizes(basis, member)
+    outside = basis.rule.cover_m + basis.link_m + 0.5 * basis.bar_m
+    for name, (side, along) in _SIDES.items():
+        if ratio := getattr(table, name):
+            inside = outside + (basis.bar_m if along == "y" else 0.0)
+            yield _layer(basis, member, side, along, inside, _PERCENT * ratio, extents)
+    if table.upright_percent and member.directions:
+        yield _inclined(basis, member, _PERCENT * table.upright_percent, extents)
+    elif table.upright_percent:
+        for side in _UPRIGHT_SIDES:
+            yield _layer(basis, member, side, "z", outside, 0.25 * _PERCENT * table.upright_percent, extents)
+    if table.links_percent:
+        yield _links(basis, member, _PERCENT * table.links_percent, extents)
+
+
+def _sizes(basis: DesignBasis, member: Member) -> np.ndarray:
+    """Return length, width and height (3,) of a member without skew; along its own axes of an arch and haunches."""
+    if not member.is_in_pieces:
+        return np.ptp(member.without_skew(member.solid.vertices), axis=0)
+    axes = own_axes(member)
+    length = arch_axis(basis.bridge).length_m if member.kind == ARCH_KIND else axes.length_m
+    return np.array([length, axes.width_m, axes.height_m])
+
+
+def _layer(
+    basis: DesignBasis, member: Member, side: str, along: str, depth_m: float, ratio: float, extents: np.ndarray
+) -> ScheduledBars:
+    length = float(extents["xyz".index(along)])
+    section = member.volume_m3 / length
+    thickness = float(extents[{"bottom": 2, "top": 2, "start": 0, "end": 0}.get(side, 1)])
+    if depth_m >= 0.5 * thickness:
+        raise basis.rule.unexpected(
+            "cover_m",
+            f"less: the bars of {member.name}, {thickness:g} m thick, would be {depth_m:.3f} m below its side",
+        )
+    layer = BarLayer(
+        members=(member.name,),
+        along=along,
+        side=side,
+        depth_m=depth_m,
+        area_mm2=ratio * section * _MM2,
+        yield_n_mm2=basis.yield_pa / _MM2,
+        diameter_mm=basis.rule.bar_diameter_mm,
+        own_axes=member.is_in_pieces,
+    )
+    return ScheduledBars(layer, member.kind, None, section, ratio * section, _REASON, length)
+
+
+def _inclined(basis: DesignBasis, member: Member, ratio: float, extents: np.ndarray) -> ScheduledBars:
+    """Return the upright bars of an inclined leg: spread, as of both faces, and as many across its slope."""
+    _, up = member.directions[0]
+    height = float(extents[2])
+    section = member.volume_m3 / height
+    layer = BarLayer(
+        members=(member.name,),
+        along="z",
+        spread_mm2_m2=ratio / up * _MM2,
+        yield_n_mm2=basis.yield_pa / _MM2,
+        diameter_mm=basis.rule.bar_diameter_mm,
+    )
+    return ScheduledBars(layer, member.kind, None, section, ratio / up * section, _REASON, height)
+
+
+def _links(basis: DesignBasis, member: Member, ratio: float, extents: np.ndarray) -> ScheduledLinks:
+    along = int(np.argmax(extents))
+    width, height = sorted(np.delete(extents, along).tolist(), reverse=True)
+    area = ratio * width * _MM2
+    cover = basis.rule.cover_m
+    return ScheduledLinks(
+        members=(member.name,),
+        kind=member.kind,
+        link_area_mm2_per_m=area,
+        required_mm2_per_m=area,
+        reason=_REASON,
+        legs=2,
+        diameter_m=0.0,
+        spacing_m=0.0,
+        width_m=width,
+        loop_m=2.0 * (width + height - 4.0 * cover),
+        length_m=float(extents[along]),
+    )

@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...engineering.reinforced_concrete.bending import PressedShape, tension_steel
 from ...engineering.reinforced_concrete.influence_lines import (
     InfluenceLines,
     MovingLoad,
@@ -29,7 +28,15 @@ from ...engineering.reinforced_concrete.least_areas import (
     row_depth_m,
 )
 from ...engineering.reinforced_concrete.materials import PERMANENT_FACTOR, VARIABLE_FACTOR, Concrete, design_yield_pa
-from ...engineering.reinforced_concrete.shear import Links, links, links_along_m2_m, struts_n, without_links_n
+from ...engineering.reinforced_concrete.resistance import (
+    Links,
+    PressedShape,
+    links,
+    links_along_m2_m,
+    struts_n,
+    tension_steel,
+    without_links_n,
+)
 from ...engineering.reinforced_concrete.traffic import Traffic
 from ...engineering.units import STANDARD_GRAVITY_M_S2
 from ...errors import ScenarioError

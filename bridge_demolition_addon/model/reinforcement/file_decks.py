@@ -9,9 +9,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...engineering.arrays import FloatArray
-from ...engineering.reinforced_concrete.bending import PressedShape, flange_width_m
 from ...engineering.reinforced_concrete.influence_lines import InfluenceLines, MovingLoad, influence_lines
 from ...engineering.reinforced_concrete.least_areas import SECONDARY_SHARE
+from ...engineering.reinforced_concrete.resistance import PressedShape, flange_width_m
 from ...engineering.reinforced_concrete.traffic import Traffic, lever_rule, strip_widths_m
 from ...texts import Text
 from ..bridge.member import own_axes

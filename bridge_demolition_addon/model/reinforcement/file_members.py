@@ -9,7 +9,7 @@ from typing import TypeVar
 
 from ...engineering.geometry.own_axes import OwnAxes
 from ...engineering.geometry.vectors import AXES
-from ...engineering.reinforced_concrete.bending import PressedShape
+from ...engineering.reinforced_concrete.resistance import PressedShape
 from ...errors import ScenarioError
 from ..bridge.member import Member, own_axes
 from ..materials import BarLayer

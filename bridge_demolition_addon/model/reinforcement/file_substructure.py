@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...engineering.reinforced_concrete.columns import ColumnSection, design_moment_nm
 from ...engineering.reinforced_concrete.influence_lines import MovingLoad, extreme_effects, influence_lines
 from ...engineering.reinforced_concrete.least_areas import LARGEST_SHARE, level_of_wall_m2, upright_of_wall_m2
 from ...engineering.reinforced_concrete.materials import PERMANENT_FACTOR, VARIABLE_FACTOR
+from ...engineering.reinforced_concrete.resistance import ColumnSection, design_moment_nm
 from ..bridge.member import own_axes
 from .design_basis import LEAST, beam_effects, column_loads
 from .file_decks import FileDeckLine, beam_rows

@@ -9,8 +9,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...engineering.geometry.solids import across_flats_m
-from ...engineering.reinforced_concrete.bending import PressedShape
-from ...engineering.reinforced_concrete.columns import ColumnSection, design_moment_nm
 from ...engineering.reinforced_concrete.influence_lines import MovingLoad, extreme_effects, influence_lines
 from ...engineering.reinforced_concrete.least_areas import (
     LARGEST_SHARE,
@@ -24,6 +22,7 @@ from ...engineering.reinforced_concrete.least_areas import (
     upright_of_wall_m2,
 )
 from ...engineering.reinforced_concrete.materials import PERMANENT_FACTOR, VARIABLE_FACTOR
+from ...engineering.reinforced_concrete.resistance import ColumnSection, PressedShape, design_moment_nm
 from ..bridge.member import Member
 from ..scenario.bridge_parts import PierCaps, Piers
 from ..schema import given

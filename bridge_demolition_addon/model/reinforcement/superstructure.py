@@ -8,13 +8,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...engineering.reinforced_concrete.bending import PressedShape, flange_width_m
 from ...engineering.reinforced_concrete.influence_lines import (
     InfluenceLines,
     MovingLoad,
     influence_lines,
 )
 from ...engineering.reinforced_concrete.least_areas import SECONDARY_SHARE, BarChoice
+from ...engineering.reinforced_concrete.resistance import PressedShape, flange_width_m
 from ...engineering.reinforced_concrete.traffic import lever_rule, strip_widths_m
 from ...texts import Text
 from ..bridge.layout import deck_ends, pier_axes

@@ -20,8 +20,7 @@ from ...engineering.geometry.mesh import TriangleMesh
 from ...engineering.geometry.vectors import transformed
 from ...engineering.mechanics.frame_loads import FrameLoads
 from ...engineering.mechanics.work import FrameWork
-from ...engineering.terrain.recorded import NamedSurface, RecordedGround
-from ...engineering.terrain.surface import Surface
+from ...engineering.terrain.surface import NamedSurface, RecordedGround, Surface
 from ...errors import OutputError, UnreadableError
 from ...system.array_files.archive import blocks_of, read_archive, write_archive
 from ...system.array_files.table import stored_rows

@@ -11,7 +11,7 @@ import numpy as np
 
 from ...engineering.elasticity.crack_state import BARS_HOLD, BARS_YIELDED
 from ...engineering.geometry.vectors import length
-from ...engineering.terrain.recorded import RecordedGround
+from ...engineering.terrain.surface import RecordedGround
 from .arrays import Results
 from .motion import relative_to_ground
 from .records import BarsAtEnd, ConnectionsOfRun

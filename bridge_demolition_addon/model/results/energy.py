@@ -15,7 +15,7 @@ from .frames import Frame
 from .motion import MOVED_M, throw
 
 _SPHERE = 0.4
-"""Moment of inertia of a solid sphere by mass and radius squared."""
+"""MomentOfRun of inertia of a solid sphere by mass and radius squared."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -26,7 +26,7 @@ _Record = TypeVar("_Record", bound=Record)
 
 
 @dataclass(frozen=True, slots=True)
-class Moment:
+class MomentOfRun:
     """A frame, and the time at its end."""
 
     time_s: float
@@ -43,7 +43,7 @@ class KeyFrame:
 
 
 @dataclass(frozen=True, slots=True)
-class BallHit:
+class HitOfRun:
     """A hit of a ball; one from behind has no estimates of its force."""
 
     ball: str
@@ -289,7 +289,7 @@ def record_of(kind: type[_Record], values: Any, name: str, *, is_checked: bool =
     Raises
     ------
     OutputError
-        A key is missing, or its value is none that a run writes.
+        A key is missing, or its value cannot be of a run.
     """
     if not isinstance(values, dict):
         raise OutputError(f"{name}: is {shown(values)}, expected a table")

@@ -17,7 +17,7 @@ from .collapse import ConnectionCounts
 from .energy import energy_summary
 from .motion import first_hit, relative_to_ground, throw, without_removed
 from .moving import creep_summary, moving_summary
-from .records import BallHit, Creeping, LargestThrow, Moment, StillMoving
+from .records import Creeping, HitOfRun, LargestThrow, MomentOfRun, StillMoving
 
 _FLYING_S = 0.5
 """How long after the last load of a blast: what falls has come down by 1.2 m, what flies is not yet out of sight."""
@@ -106,7 +106,7 @@ def _json(record: LargestThrow | Creeping | StillMoving | None) -> dict[str, Any
     return asdict(record) if record else None
 
 
-def first_hit_s(impact: Moment | None, hits: Iterable[BallHit]) -> float | None:
+def first_hit_s(impact: MomentOfRun | None, hits: Iterable[HitOfRun]) -> float | None:
     """Return when the falling ball first hit, by its impact: by its hits if recorded, or else to a frame.
 
     Contacts of the ball while it is still held are no hits.

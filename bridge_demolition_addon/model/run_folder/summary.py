@@ -13,7 +13,6 @@ from ...system.disk import write_whole_text
 from ...system.reading import MEGABYTE, file_text
 from ..results.collapse import ConnectionCounts, Rested
 from ..results.records import (
-    BallHit,
     BarsAtEnd,
     BearingOfRun,
     ConnectionsOfRun,
@@ -21,11 +20,12 @@ from ..results.records import (
     EnergyOfRun,
     EventOfRun,
     Fall,
+    HitOfRun,
     KeyFrame,
     LargestThrow,
     LiftOfRun,
     LoadOfRun,
-    Moment,
+    MomentOfRun,
     PeakForce,
     PullOfRun,
     StillMoving,
@@ -54,7 +54,7 @@ class RunSummary:
         Changes made in Blender, which the scenario does not hold.
     terrain : TerrainFacts or None
         None where the ground is flat.
-    impact : Moment or None
+    impact : MomentOfRun or None
         Frame in which the ball hit; None where it did not, or this is unknown.
     shortest_substep_s : float or None
         None where no time passed.
@@ -76,9 +76,9 @@ class RunSummary:
     shortest_substep_s: float | None = None
     mass_kg: dict[str, float] | None = None
     connections: ConnectionsOfRun | None = None
-    impact: Moment | None = None
+    impact: MomentOfRun | None = None
     key_frame: KeyFrame = field(default_factory=KeyFrame)
-    hits_of_the_ball: tuple[BallHit, ...] = ()
+    hits_of_the_ball: tuple[HitOfRun, ...] = ()
     largest_resultant: PeakForce | None = None
     largest_throw: LargestThrow | None = None
     energy: EnergyOfRun | None = None

@@ -18,7 +18,7 @@ from ...engineering.geometry.overlap import SHARD_OVERLAP_TOLERANCE, Overlaps, h
 from ...engineering.geometry.vectors import AXES, SIDES
 from ...engineering.mechanics.joint import Joint
 from ...engineering.mechanics.strength import MATERIALS, NEWTON_PER_SQUARE_MILLIMETRE, SMEARED, Strength
-from ...engineering.reinforced_concrete.shear import FRICTION_ALONG_CRACK
+from ...engineering.reinforced_concrete.resistance import FRICTION_ALONG_CRACK
 from ...engineering.units import mass_text
 from ..actions import Fact
 from ..bridge.member import Member

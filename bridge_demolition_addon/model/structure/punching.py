@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from ...engineering.reinforced_concrete.shear import punching_n
+from ...engineering.reinforced_concrete.resistance import punching_n
 from ..bridge.member import Member
 from ..materials import BarLayer
 from .member_layers import LayersOfMember, layers_of_members

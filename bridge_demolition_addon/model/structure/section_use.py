@@ -16,7 +16,7 @@ import numpy as np
 
 from ...engineering.geometry.vectors import cross, dot, unit
 from ...engineering.mechanics.section_cuts import ConnectionLoads
-from ...engineering.reinforced_concrete.shear import FRICTION_ALONG_CRACK
+from ...engineering.reinforced_concrete.resistance import FRICTION_ALONG_CRACK
 from ..scenario import Scenario
 from .member_layers import LayersOfMember, layers_of_members
 from .model import Model

@@ -8,7 +8,7 @@ from itertools import product
 
 import numpy as np
 
-from ...engineering.reinforced_concrete.bending import flange_width_m
+from ...engineering.reinforced_concrete.resistance import flange_width_m
 from ..bridge.layout import deck_seats
 from ..bridge.member import Member
 from ..bridge.superstructure import cast_decks

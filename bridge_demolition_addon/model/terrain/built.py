@@ -10,8 +10,7 @@ import numpy as np
 from ...engineering.geometry.mesh import TriangleMesh
 from ...engineering.terrain.levelling import Levelled, levelled
 from ...engineering.terrain.raster import nearest_known
-from ...engineering.terrain.recorded import NamedSurface, RecordedGround
-from ...engineering.terrain.surface import Surface
+from ...engineering.terrain.surface import NamedSurface, RecordedGround, Surface
 from ...engineering.terrain.thinning import Grid, thinned
 from ...errors import GeometryError
 from ...texts import Quantity, Text

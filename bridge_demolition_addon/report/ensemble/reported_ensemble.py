@@ -15,7 +15,7 @@ from manifold3d import CrossSection
 from ...engineering.geometry.plan_areas import outlines, united
 from ...engineering.statistics.probability_map import LEVELS, ProbabilityMap, probability_map
 from ...errors import OutputError
-from ...model.debris.exclusion import widened_around
+from ...model.debris.zones import widened_around
 from ...model.ensemble.folder import EnsembleRuns, read_ensemble
 from ...model.optimise.conclusions import CANDIDATE, ROUND
 from ...model.study.conclusions import Conclusions, Proportion, holds, proportion_leaving

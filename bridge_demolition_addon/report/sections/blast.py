@@ -10,7 +10,7 @@ from manifold3d import CrossSection
 from ...charts.blast_maps import WIDEST_PA, neighbour_pressures, overpressure_map
 from ...engineering.blast.pulses import BlastModel
 from ...engineering.blast.vibration import DAMAGE_LIMIT_M_S, FREE_FACE_AVERAGE
-from ...engineering.terrain.recorded import RecordedGround
+from ...engineering.terrain.surface import RecordedGround
 from ...engineering.units import with_digits
 from ...model.blast.charges import Charge
 from ...model.blast.receptors import ONE_DELAY_S, THRESHOLDS, PlaceLoads, charges_per_delay, loads_at, ring_radii

@@ -22,9 +22,8 @@ from ...model.structure.zone_fragments import FlyrockOfZone
 from ...model.structure.zone_loads import ZoneFall, bars_used, zone_falls
 from ...texts import Quantity, Text, Unit, joined
 from ..document.blocks import Block, Column, DataTable, Paragraph, Section, facts
-from ..wording.site_law import extrapolated_text, site_law_text
 from ..wording.verdict import CORDON, Flyrock, cordon_text, flyrock_of_plan
-from ..wording.vibration_limits import limit_table, limits_text
+from ..wording.vibration import extrapolated_text, limit_table, limits_text, site_law_text
 
 _TITLE = Text("Charge plan")
 _MEGA = 1e6

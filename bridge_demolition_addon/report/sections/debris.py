@@ -12,7 +12,6 @@ from ...charts.plan_maps import OnPlan, debris_map, exclusion_map, map_height_mm
 from ...engineering.geometry.plan_areas import outlines
 from ...engineering.geometry.vectors import length
 from ...engineering.units import mass_text, rounded_down, rounded_up, volume_text
-from ...model.debris.exclusion import ExclusionZone, exclusion_zone
 from ...model.debris.throws import (
     PERCENTS,
     PILES_NOTE,
@@ -23,7 +22,7 @@ from ...model.debris.throws import (
     height_map,
     percentiles_by_mass,
 )
-from ...model.debris.zones import watch_zone
+from ...model.debris.zones import ExclusionZone, exclusion_zone, watch_zone
 from ...model.results.arrays import Results
 from ...model.results.energy import throws_of
 from ...model.results.motion import MOVED_M, relative_to_ground, without_removed

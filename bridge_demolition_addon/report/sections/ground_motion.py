@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import partial
 
-from ...charts.ground_motion import ground_motion_history, moving_directions, response_spectra
+from ...charts.histories import ground_motion_history, moving_directions, response_spectra
 from ...engineering.ground_motion import GroundRecord
 from ...engineering.units import STANDARD_GRAVITY_M_S2
 from ...errors import ScenarioError
@@ -21,8 +21,7 @@ from ...model.structure.settlement import settlements
 from ...texts import Quantity, Text
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section
 from ..run_folder import ReportedRun
-from ..wording.site_law import extrapolated_text, site_law_text
-from ..wording.vibration_limits import limit_table, limits_text
+from ..wording.vibration import extrapolated_text, limit_table, limits_text, site_law_text
 
 _SHAKING = Text(
     "Largest velocity of the ground by v = {} cm/s (R / (E / 10 kJ)^(1/3))^-{} (Zhou), with the distance R in m "

@@ -9,7 +9,7 @@ from dataclasses import replace
 from ...engineering.statistics.order_limits import achieved_confidence, least_runs
 from ...engineering.units import rounded_down, rounded_up
 from ...model.debris.throws import PILES_NOTE
-from ...model.sequence.rest import FASTEST
+from ...model.sequence.ending import FASTEST
 from ...model.study.conclusions import Conclusions, DebrisLimit, DoubtfulThrows, FragmentLimits, Proportion
 from ...model.study.file import Ensemble, Study
 from ...model.study.settings import StudySettings

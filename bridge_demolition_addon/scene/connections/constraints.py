@@ -16,8 +16,8 @@ from ...engineering.mechanics.strength import Ductility, Strength
 from ...engineering.structure.connections import GROUND, Connections
 from ...engineering.timing.timeline import TimeStep
 from ..bodies import bodies_of
+from ..collections import make_named, numbered_names
 from ..custom_properties import keep, kept_number, kept_numbers
-from ..naming import make_named, numbered_names
 from ..world import time_step_at
 
 _SYMBOL_SIZE_M = 0.1

@@ -11,8 +11,7 @@ from mathutils import Vector
 
 from ...engineering.geometry.mesh import TriangleMesh
 from ...engineering.geometry.vectors import transformed, turn_in_plane
-from ...engineering.terrain.recorded import NamedSurface, RecordedGround
-from ...engineering.terrain.surface import Surface
+from ...engineering.terrain.surface import NamedSurface, RecordedGround, Surface
 from ...errors import OutputError
 from ...model.debris.survey import SurveyComparison
 from ..bodies import bodies_of, is_uneven_ground, member_of, triangle_mesh

@@ -14,10 +14,9 @@ import numpy as np
 from mathutils import Matrix, Vector
 
 from ...display.approaches import approaches
-from ...display.bent_bars import bent_bars
 from ...display.crawlers import StandingRoom, ball_cranes, breaker_excavators, excavator_parts
 from ...display.dressing import LOOKS_ONLY, DrawnPart, Stuff, joined_by_stuff, rod
-from ...display.dust import Chips, are_steel, chips_of, puffs, touchdowns
+from ...display.dust import Chips, are_steel, bent_bars, chips_of, puffs, touchdowns
 from ...display.moved_surfaces import moved, parted
 from ...display.road_furniture import road_furniture
 from ...display.scale_bar import ScaleBar, scale_bar

@@ -26,11 +26,11 @@ from ...display.ground_lines import (
 from ...display.zone_boxes import box_lines, delay_colours, hole_lines
 from ...engineering.geometry.plan_areas import outlines, united
 from ...engineering.geometry.vectors import transformed
-from ...engineering.terrain.recorded import RecordedGround
+from ...engineering.terrain.surface import RecordedGround
 from ...errors import GeometryError, ScenarioError
 from ...model.bridge.preparation import prepared_members
-from ...model.debris.exclusion import ExclusionZone, exclusion_zone
 from ...model.debris.footprint import footprint
+from ...model.debris.zones import ExclusionZone, exclusion_zone
 from ...model.results.arrays import Results
 from ...model.scenario import BlastZone, Exclusion
 from ...model.scenario.file import scenario_from_text

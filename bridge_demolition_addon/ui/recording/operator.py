@@ -14,8 +14,7 @@ from ...model.run_folder.folder import check_folder, keep_scenario, lock_in_plac
 from ...model.run_folder.summary import RunSummary
 from ...model.scenario import RecordingSettings, Scenario
 from ...model.scenario.recording import PictureSettings
-from ...model.sequence.ending import doubts_of_run
-from ...model.sequence.rest import Rest
+from ...model.sequence.ending import Rest, doubts_of_run
 from ...scene.as_built import edits_beside_bodies, manual_edits
 from ...scene.run_setup import run_setup_of
 from ...scene.world import keep_played_frames, start_over

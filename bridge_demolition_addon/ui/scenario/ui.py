@@ -14,9 +14,17 @@ from ...model.schema import Table, holds_many, is_optional, key_name, subtable_c
 from ...scene.visibility import has_symbols, symbols_are_hidden
 from ..languages.words import CONTEXT, translated
 from ..messages import draw_messages
-from ..panel_places import DEMOLITION_ADVANCED, PREFIX, parent_of, tables_below
 from ..preview.bars import shown_bars
-from ..sidebar import SidebarPanel, draw_sentence, letters_of, width_of
+from ..sidebar import (
+    DEMOLITION_ADVANCED,
+    PREFIX,
+    SidebarPanel,
+    draw_sentence,
+    letters_of,
+    parent_of,
+    tables_below,
+    width_of,
+)
 from ..task_progress import draw_task_progress, going_on
 from .built import ChangedValue, Kept, built_values, change_of, change_of_use, changes, changes_of_table, has_changed
 from .hints import breaking_note, contact_note, draw_first_help, draw_stability, next_step, undo_note

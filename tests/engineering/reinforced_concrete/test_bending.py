@@ -5,12 +5,12 @@ import math
 
 import pytest
 
-from bridge_demolition_addon.engineering.reinforced_concrete.bending import (
+from bridge_demolition_addon.engineering.reinforced_concrete.materials import GRADES, Concrete, design_yield_pa
+from bridge_demolition_addon.engineering.reinforced_concrete.resistance import (
     PressedShape,
     flange_width_m,
     tension_steel,
 )
-from bridge_demolition_addon.engineering.reinforced_concrete.materials import GRADES, Concrete, design_yield_pa
 from bridge_demolition_addon.model.materials import ReinforcedSection
 
 C35 = Concrete(35e6)

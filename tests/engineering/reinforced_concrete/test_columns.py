@@ -5,13 +5,13 @@ import math
 
 import pytest
 
-from bridge_demolition_addon.engineering.reinforced_concrete.columns import ColumnSection, design_moment_nm
 from bridge_demolition_addon.engineering.reinforced_concrete.least_areas import (
     BarChoice,
     bars_in_rows,
     row_depth_m,
 )
 from bridge_demolition_addon.engineering.reinforced_concrete.materials import Concrete
+from bridge_demolition_addon.engineering.reinforced_concrete.resistance import ColumnSection, design_moment_nm
 from bridge_demolition_addon.model.materials import ReinforcedSection
 
 YIELD = 500e6 / 1.15

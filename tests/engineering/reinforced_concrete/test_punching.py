@@ -5,7 +5,7 @@ import math
 
 import pytest
 
-from bridge_demolition_addon.engineering.reinforced_concrete.shear import punching_n, punching_stress_pa
+from bridge_demolition_addon.engineering.reinforced_concrete.resistance import punching_n, punching_stress_pa
 
 V_RD_C = {
     (0.20, 0.0025): 0.54,

@@ -5,7 +5,7 @@ import pytest
 
 from bridge_demolition_addon.engineering.reinforced_concrete import least_areas
 from bridge_demolition_addon.engineering.reinforced_concrete.materials import Concrete
-from bridge_demolition_addon.engineering.reinforced_concrete.shear import (
+from bridge_demolition_addon.engineering.reinforced_concrete.resistance import (
     links,
     struts_n,
     without_links_n,

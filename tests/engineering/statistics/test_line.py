@@ -4,8 +4,7 @@
 import numpy as np
 import pytest
 
-from bridge_demolition_addon.engineering.statistics.line import fitted_line
-from bridge_demolition_addon.engineering.statistics.student import probability_within, student_quantile
+from bridge_demolition_addon.engineering.statistics.line import fitted_line, probability_within, student_quantile
 
 NORRIS = """0.2 0.1 337.4 338.8 118.2 118.1 884.6 888.0 10.1 9.2 226.5 228.1 666.3 668.5 996.3 998.5 448.6 449.1
 777.0 778.9 558.2 559.2 0.4 0.3 0.6 0.1 775.5 778.1 666.9 668.8 338.0 339.3 447.5 448.9 11.6 10.8 556.0 557.7

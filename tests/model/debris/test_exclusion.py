@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from support.moving_boxes import moving_boxes
 
-from bridge_demolition_addon.model.debris.exclusion import exclusion_zone
+from bridge_demolition_addon.model.debris.zones import exclusion_zone
 from bridge_demolition_addon.model.scenario import Exclusion
 
 # A circle of 64 corners has sin(2π/64) / (2π/64) of its area: 0.2 % less.

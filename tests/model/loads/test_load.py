@@ -10,8 +10,7 @@ from support.scenarios import I235
 from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.scenario import Load
 from bridge_demolition_addon.model.scenario.file import scenario_from_text, scenario_text
-from bridge_demolition_addon.model.sequence.ending import first_event_s
-from bridge_demolition_addon.model.sequence.rest import last_event_s
+from bridge_demolition_addon.model.sequence.ending import first_event_s, last_event_s
 
 LOAD = Load(members=("deck",), times_s=(1, 2, 4), forces_n=(10, 30, 0))
 

@@ -24,8 +24,8 @@ from bridge_demolition_addon.model.scenario import (
 )
 from bridge_demolition_addon.model.sequence.checked_model import ModelWorksite, checked_model
 from bridge_demolition_addon.report.sections.planned_sequence import means_text, planned_steps
+from bridge_demolition_addon.scene.custom_properties import keep_tables, run_tables_of
 from bridge_demolition_addon.scene.demolition import build_demolition
-from bridge_demolition_addon.scene.run_tables import keep_tables, run_tables_of
 from bridge_demolition_addon.simulation.playback import Playing
 from bridge_demolition_addon.simulation.recording.recorder import Recording
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from support.sample_results import GRAVITY, G, changed, hanging_chain, without_connections
 
-from bridge_demolition_addon.model.results.records import BallHit, Moment
+from bridge_demolition_addon.model.results.records import HitOfRun, MomentOfRun
 from bridge_demolition_addon.model.results.summary import first_hit_s, impact_step, summarise
 
 BODY_SERIES = (
@@ -48,8 +48,8 @@ def test_a_shard_that_was_removed_is_not_thrown():
     [([1.508, 2.188], 1.508), ([0.3, 1.508], 1.508), ([], 1.542), ([2.188], 1.542)],
 )
 def test_the_first_hit_is_told_to_a_sub_step(hits, hit_s):
-    recorded = [BallHit("ball", time_s, 0.01, 5.0, 1e4, 1e6) for time_s in hits]
-    assert first_hit_s(Moment(1.542, 39), recorded) == hit_s
+    recorded = [HitOfRun("ball", time_s, 0.01, 5.0, 1e4, 1e6) for time_s in hits]
+    assert first_hit_s(MomentOfRun(1.542, 39), recorded) == hit_s
     assert first_hit_s(None, recorded) is None
 
 

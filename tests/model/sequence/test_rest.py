@@ -10,7 +10,7 @@ from support.scenarios import I235
 
 from bridge_demolition_addon.model.scenario import BallHit, SawCut
 from bridge_demolition_addon.model.scenario.file import read_scenario
-from bridge_demolition_addon.model.sequence.rest import Rest, last_event_s
+from bridge_demolition_addon.model.sequence.ending import Rest, last_event_s
 
 STEP_S = 0.1
 

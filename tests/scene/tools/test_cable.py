@@ -21,7 +21,7 @@ from bridge_demolition_addon.model.scenario import Ball, BallCable, ContactSetti
 from bridge_demolition_addon.model.scenario.contacts import BallContact
 from bridge_demolition_addon.model.scenario.file import scenario_from_text, scenario_text
 from bridge_demolition_addon.model.sequence.checked_model import checked_model
-from bridge_demolition_addon.model.sequence.rest import last_event_s
+from bridge_demolition_addon.model.sequence.ending import last_event_s
 
 CABLE = BallCable(crane_point_m=(1.0, 2.0, 12.0), length_m=8.0, angle_degrees=40.0, azimuth_degrees=90.0)
 

@@ -17,8 +17,7 @@ from bridge_demolition_addon.model.actions import PlannedAction
 from bridge_demolition_addon.model.scenario import Scenario, file
 from bridge_demolition_addon.model.schema import key
 from bridge_demolition_addon.model.sequence.checked_model import checked_model
-from bridge_demolition_addon.model.sequence.ending import first_event_s
-from bridge_demolition_addon.model.sequence.rest import last_event_s
+from bridge_demolition_addon.model.sequence.ending import first_event_s, last_event_s
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

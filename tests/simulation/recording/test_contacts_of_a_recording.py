@@ -13,7 +13,7 @@ from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.errors import SimulationError
 from bridge_demolition_addon.model.results.arrays import load_results, motion_digest
 from bridge_demolition_addon.model.scenario import Removal
-from bridge_demolition_addon.scene.run_tables import keep_tables
+from bridge_demolition_addon.scene.custom_properties import keep_tables
 from bridge_demolition_addon.simulation.blender_events import start_recording, stop_recording
 from bridge_demolition_addon.simulation.recording.recorder import Recording
 

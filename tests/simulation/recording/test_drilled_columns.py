@@ -16,9 +16,9 @@ from bridge_demolition_addon.model.changes.zone_firings import ZoneFiring
 from bridge_demolition_addon.model.results.energy import throws_of
 from bridge_demolition_addon.model.scenario import MemberCut
 from bridge_demolition_addon.scene.bodies import mark_member
+from bridge_demolition_addon.scene.custom_properties import keep_tables, run_tables_of
 from bridge_demolition_addon.scene.demolition import build_demolition
 from bridge_demolition_addon.scene.removal import remove_demolition
-from bridge_demolition_addon.scene.run_tables import keep_tables, run_tables_of
 
 WEIGHT_N = 100.0 * STANDARD_GRAVITY_M_S2
 FIRED_S = 0.301

@@ -16,7 +16,7 @@ from bridge_demolition_addon.model.results.motion import OUT_OF_REACH_M
 from bridge_demolition_addon.model.scenario import Removal, SawCut, Weakening
 from bridge_demolition_addon.scene.bodies import mark_member
 from bridge_demolition_addon.scene.connections.constraints import Breaking
-from bridge_demolition_addon.scene.run_tables import keep_tables, run_tables_of
+from bridge_demolition_addon.scene.custom_properties import keep_tables, run_tables_of
 from bridge_demolition_addon.simulation.blender_events import start_recording, stop_recording
 from bridge_demolition_addon.simulation.recording.recorder import Recording
 

@@ -12,7 +12,7 @@ from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.errors import ScenarioError, SimulationError
 from bridge_demolition_addon.model.scenario import Load, Removal
 from bridge_demolition_addon.scene.bodies import mark_member
-from bridge_demolition_addon.scene.run_tables import keep_tables, run_tables_of
+from bridge_demolition_addon.scene.custom_properties import keep_tables, run_tables_of
 
 MASS_KG = 100.0
 WEIGHT_N = MASS_KG * STANDARD_GRAVITY_M_S2

@@ -9,7 +9,7 @@ from support.blocks import Blocks
 
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.model.scenario import Load
-from bridge_demolition_addon.scene.run_tables import keep_tables
+from bridge_demolition_addon.scene.custom_properties import keep_tables
 
 MASS_KG = 100.0
 WEIGHT_N = MASS_KG * STANDARD_GRAVITY_M_S2

@@ -10,7 +10,7 @@ from matplotlib.image import imread, imsave
 from support.checkout import EXAMPLES, REPORT_2019
 
 from bridge_demolition_addon.engineering.geometry.plan_areas import outlines
-from bridge_demolition_addon.model.debris.exclusion import exclusion_zone
+from bridge_demolition_addon.model.debris.zones import exclusion_zone
 from bridge_demolition_addon.model.scenario import Exclusion, Neighbour, Zone
 from bridge_demolition_addon.model.scenario.file import read_scenario, scenario_text
 

@@ -107,7 +107,7 @@ def test_what_was_dragged_is_built(shown, extension):
     shown.bda.scenario.fracture.shards = 30
     extension.ops.bda.drag_handle(kind="ZONE_END", index=0, position_m=(0.0, 0.0, 2.8))
     assert extension.ops.bda.build_scenario() == {"FINISHED"}
-    from bridge_demolition_addon.scene.run_tables import run_tables_of
+    from bridge_demolition_addon.scene.custom_properties import run_tables_of
 
     (fired,) = [change for change in run_tables_of(shown, "changes") if change.name == DRILLED.blast_zones[0].name]
     assert (fired.lowest_corner_m[2], fired.highest_corner_m[2]) == pytest.approx((0.75, 2.8))
