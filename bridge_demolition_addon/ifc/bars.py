@@ -21,8 +21,8 @@ from ..model.scenario.reinforcement import LOAD_MODEL_1
 from .alignments import points_of
 from .elements import Element
 from .library import library
+from .missing_references import CONTRADICTIONS, items_of
 from .placement import Placement
-from .representations import CONTRADICTIONS, items_of
 from .source import IfcSource
 
 _ALONG = math.cos(math.radians(20.0))

@@ -17,8 +17,8 @@ from .contacts import TOUCHING_M, NearbyMembers
 from .elements import Element
 from .gaps import STEEPEST, cut_by, largest_body, lengthened
 from .library import library
+from .missing_references import CONTRADICTIONS
 from .placement import Placement
-from .representations import CONTRADICTIONS
 
 SEAT_M = 0.001
 """How far a bearing is let into what it lies on, so that the two become one solid in spite of rounding."""

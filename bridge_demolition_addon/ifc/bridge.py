@@ -1,14 +1,18 @@
-"""A bridge from an IFC file: its members, connections and supports, and the scenario of them."""
+"""A bridge from an IFC file: its members, how finely they are cut, connections, supports, and the scenario of them."""
 
 from __future__ import annotations
 
+import math
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import chain, count, groupby
 from pathlib import Path
 
+import numpy as np
+
 from ..engineering.geometry.mesh import TriangleMesh
+from ..engineering.geometry.solids import to_manifold
 from ..errors import IfcError
 from ..model.bridge.member import Member
 from ..model.materials import BarLayer
@@ -22,14 +26,15 @@ from ..model.scenario import (
     Site,
     TimeSettings,
 )
+from ..model.scenario.fracture import MemberFracture
 from ..model.schema import given
+from ..model.structure.members import shards_per_member
 from .assembly import Assembly
 from .bars import bar_layers, with_bars_by_rule
 from .bodies import Bodies, bodies_of
 from .contacts import NearbyMembers
 from .element_materials import MaterialTable, material_table, substances
 from .elements import Element, elements_of, plain_text
-from .fineness import fracture_of
 from .kinds_by_shape import with_kinds_by_shape
 from .left_out import leave_out_clamping_slabs, leave_out_light_bracing, leave_out_plates
 from .likely_units import with_likely_unit
@@ -381,3 +386,31 @@ def _title(source: IfcSource) -> str:
 def _file(number: int, name: str) -> str:
     letters = re.sub(r"[^a-z0-9]+", "_", name.lower()).strip("_")[:40]
     return f"{MESH_FOLDER}/{number:03d}{'_' if letters else ''}{letters}.obj"
+
+
+_SLENDER = ("girder", "arch", "bracing", "parapet", "member", "pier cap")
+_LONGEST = 3.0
+"""Length of a shard of a slender member by the height of its section: a longer one of a curved girder would reach far
+beside it, as what meets others in a run is the hull of a shard."""
+
+_CURVED = 6.0
+"""Volume of the hull by that of the member from which on its width is that of a curve: open sections have up to 4."""
+
+
+def fracture_of(members: Sequence[Member], held: Collection[str], shards: int) -> FractureSettings:
+    """Return how members are cut into about so many shards; those that are `held` never move, and need no more."""
+    volumes = np.array([member.volume_m3 for member in members])
+    by_volume = shards_per_member(volumes, max(shards, len(members)))
+    rules, more = [], 0
+    for member, own in zip(members, by_volume.tolist(), strict=True):
+        least = 1 if member.name in held or member.kind not in _SLENDER else _least_count(member)
+        if least > own:
+            rules.append(MemberFracture(member=member.name, shards=least))
+            more += least - own
+    return FractureSettings(shards=int(by_volume.sum()) + more, members=tuple(rules))
+
+
+def _least_count(member: Member) -> int:
+    longest, middle, least = np.sort(np.ptp(member.solid.vertices, axis=0))[::-1].tolist()
+    is_curved = to_manifold(member.solid).hull().volume() > _CURVED * member.volume_m3
+    return math.ceil(longest / (_LONGEST * (least if is_curved else middle)))

@@ -18,8 +18,8 @@ from ..model.toml_tables import document_of_file, table_of_document, toml_docume
 from ..system.disk import whole_file, writing
 from .elements import Element
 from .library import library
+from .missing_references import items_of
 from .quantities import QuantityUnits, material_name, quantities_of, units_of
-from .representations import items_of
 from .settings import ImportSettings, matches
 from .source import IfcSource
 

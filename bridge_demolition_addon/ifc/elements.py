@@ -14,8 +14,8 @@ from ..model.scenario.joint_settings import GROUND_NAME
 from ..model.schema import LINE_BREAKING_CATEGORIES
 from .kinds import OTHER, ElementFacts, LeftOut, is_french, kind_of
 from .library import library
+from .missing_references import representations_of
 from .quantities import PropertySets, words_of
-from .representations import representations_of
 from .settings import KINDS, ImportSettings, matches
 from .source import IfcSource
 

@@ -13,7 +13,7 @@ from ..model.terrain.file_heights import note_on_lost
 from ..system.isolated import answer
 from .library import library
 from .map_place import is_ground, on_map
-from .representations import items_of
+from .missing_references import items_of
 from .settings import ImportSettings, matches
 from .shapes import single_shape
 from .source import IfcSource, naming_contradictions, open_source

@@ -26,8 +26,8 @@ from ..errors import GeometryError
 from .alignments import Curve, curve_of, place_along
 from .elements import Element
 from .library import library
+from .missing_references import CONTRADICTIONS, items_of
 from .profiles import line_of, outline_of
-from .representations import CONTRADICTIONS, items_of
 from .source import IfcSource
 
 CHORD_M = 0.001

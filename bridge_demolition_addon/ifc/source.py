@@ -23,9 +23,8 @@ from ..errors import GeometryError, IfcError, UnreadableError
 from ..system.reading import MEGABYTE, check_file
 from .alignments import curve_of, place_along
 from .library import library
-from .missing_references import opened, remove_incomplete, unknown_shapes
+from .missing_references import CONTRADICTIONS, items_of, opened, remove_incomplete, unknown_shapes
 from .older_schemas import translated
-from .representations import CONTRADICTIONS, items_of
 from .settings import UNITS, ImportSettings
 
 MOST_BYTES = 2000 * MEGABYTE

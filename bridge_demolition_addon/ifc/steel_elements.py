@@ -28,9 +28,9 @@ from ..errors import GeometryError
 from .element_materials import ElementMaterial
 from .elements import NO_BODIES, Element
 from .library import library
+from .missing_references import CONTRADICTIONS, representations_of
 from .placement import Placement
 from .profiles import section_of_profile
-from .representations import CONTRADICTIONS, representations_of
 from .source import IfcSource
 
 _CLASSES = ("IfcBeam", "IfcMember", "IfcColumn")

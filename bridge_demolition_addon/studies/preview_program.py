@@ -22,8 +22,7 @@ from ..model.scenario.file import scenario_from_text
 from ..model.structure.kept_models import KeptModels
 from ..model.study.preview_scenario import preview_model
 from ..system.programs import program_command
-from .own_blender import versions_here
-from .run_service import RunService, answer_of
+from .run_service import RunService, answer_of, versions_here
 
 if TYPE_CHECKING:
     from ..simulation.playback import Playing

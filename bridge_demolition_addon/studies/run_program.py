@@ -32,8 +32,7 @@ from ..system.disk import whole_file, write_whole_text
 from ..system.programs import program_command
 from ..system.progress import Progress
 from ..system.reading import MEGABYTE, file_text
-from .own_blender import versions_here
-from .run_service import RunService
+from .run_service import RunService, versions_here
 
 
 def run_program_command(blender: str = "", *, one_thread: bool = True) -> list[str]:

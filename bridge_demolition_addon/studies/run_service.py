@@ -1,6 +1,6 @@
 """How a program makes runs: it answers requests until there are no more, whatever the runs are made by.
 
-A module of its own, so that a program that makes them without Blender starts at once.
+Blender is loaded only where it is asked for, so that a program that makes runs without it starts at once.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ from typing import Any, NoReturn
 
 from ..errors import BlastError, DemolitionError, GeometryError, OutputError, ScenarioError, text_of
 from ..model.study.runs_table import DONE, FAILED, OUT_OF_MEMORY, REFUSED
+from .versions import versions_with
 
 MARK = "bda-draw "
 """What begins the program's own lines on its standard output."""
@@ -106,3 +107,13 @@ def answer_of(request: Mapping[str, Any], play: Play) -> Mapping[str, Any]:
     except Exception as error:
         traceback.print_exc()
         return {"status": FAILED, "reason": f"{type(error).__name__}: {error}"}
+
+
+def versions_here(service: RunService) -> dict[str, str]:
+    """Load Blender and return all versions; say so and end the process where it is not there."""
+    try:
+        import bpy
+    except ModuleNotFoundError as error:
+        service.say({"error": f"Blender is not there: install the bpy package or run inside Blender ({error})"})
+        os._exit(1)
+    return versions_with(".".join(map(str, bpy.app.version)))

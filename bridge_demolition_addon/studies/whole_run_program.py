@@ -18,8 +18,7 @@ from ..model.results.collapse import ConnectionCounts
 from ..model.scenario.file import scenario_from_text
 from ..system.programs import program_command
 from ..system.progress import Counts, Progress
-from .own_blender import versions_here
-from .run_service import RunService
+from .run_service import RunService, versions_here
 
 _SAID_EVERY_S = 0.3
 

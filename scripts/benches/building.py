@@ -16,7 +16,7 @@ import numpy as np
 
 from bridge_demolition_addon.engineering.geometry.mesh import TriangleMesh
 from bridge_demolition_addon.engineering.geometry.solids import box
-from bridge_demolition_addon.engineering.mechanics.joint import Joint
+from bridge_demolition_addon.engineering.mechanics.strength import Joint
 from bridge_demolition_addon.engineering.structure.connections import Connections
 from bridge_demolition_addon.model.scenario import ShardSettings, SurfaceValues, TimeSettings
 from bridge_demolition_addon.scene.bodies import create_flat_ground, create_shards

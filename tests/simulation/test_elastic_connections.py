@@ -21,8 +21,7 @@ from bridge_demolition_addon.engineering.elasticity.section_stiffness import (
     SectionStiffness,
     whole_section_stiffness,
 )
-from bridge_demolition_addon.engineering.mechanics.joint import Joint
-from bridge_demolition_addon.engineering.mechanics.strength import Strength
+from bridge_demolition_addon.engineering.mechanics.strength import Joint, Strength
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.model.results.arrays import load_results
 from bridge_demolition_addon.model.scenario import ConnectionSettings, ShardSettings

@@ -14,8 +14,7 @@ from support.blocks import Blocks
 from support.scenarios import I235
 
 from bridge_demolition_addon.engineering.elasticity.section_stiffness import SectionStiffness
-from bridge_demolition_addon.engineering.mechanics.joint import Joint, Springs
-from bridge_demolition_addon.engineering.mechanics.strength import Strength
+from bridge_demolition_addon.engineering.mechanics.strength import Joint, Springs, Strength
 from bridge_demolition_addon.engineering.timing.timeline import Timeline
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.model.scenario import Jackhammer, Load, Removal, SawCut, Weakening

@@ -8,7 +8,7 @@ import numpy as np
 
 from bridge_demolition_addon.engineering.fracture.shards import fracture
 from bridge_demolition_addon.engineering.geometry.solids import box
-from bridge_demolition_addon.engineering.mechanics.joint import Joint
+from bridge_demolition_addon.engineering.mechanics.strength import Joint
 from bridge_demolition_addon.engineering.structure.connections import connect, neighbours_by_face, second_moments
 from bridge_demolition_addon.model.scenario import ShardSettings, SurfaceValues, TimeSettings
 from bridge_demolition_addon.scene.bodies import create_shards

@@ -5,7 +5,7 @@ from fnmatch import fnmatchcase
 from math import sqrt
 from typing import ClassVar
 
-from ...engineering.mechanics.joint import Joint
+from ...engineering.mechanics.strength import Joint
 from ...errors import ScenarioError
 from ..schema import SHORTEST_LENGTH_M, Table, key
 

@@ -6,8 +6,7 @@ from typing import ClassVar, Self
 
 from ...engineering.elasticity.section_stiffness import ELASTIC_MODULI, ElasticModuli
 from ...engineering.elasticity.steel_bars import MODULUS_PA, USUAL_STEEL, Steel
-from ...engineering.mechanics.joint import TYPES, Joint
-from ...engineering.mechanics.strength import MATERIALS, NEWTON_PER_SQUARE_MILLIMETRE, SMEARED, Strength
+from ...engineering.mechanics.strength import MATERIALS, NEWTON_PER_SQUARE_MILLIMETRE, SMEARED, TYPES, Joint, Strength
 from ...errors import ScenarioError
 from ..materials import MODULUS, POISSON, Material, moduli, strengths
 from ..schema import LARGEST_INTEGER, SHARE, check_exactly_one, expected, given, key

@@ -10,8 +10,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from ...engineering.elasticity.section_stiffness import ElasticModuli
-from ...engineering.mechanics.joint import Joint
-from ...engineering.mechanics.strength import Strength
+from ...engineering.mechanics.strength import Joint, Strength
 from ...engineering.steelwork.catalogue import section_named
 from ...engineering.steelwork.resistance import GRADES
 from ...engineering.steelwork.sections import SteelSection

@@ -3,8 +3,7 @@
 from dataclasses import dataclass, fields
 from typing import ClassVar
 
-from ...engineering.mechanics.joint import MOTIONS, TYPES, Springs
-from ...engineering.mechanics.strength import MATERIALS
+from ...engineering.mechanics.strength import MATERIALS, MOTIONS, TYPES, Springs
 from ...engineering.units import STANDARD_GRAVITY_M_S2
 from ...errors import ScenarioError
 from ..materials import MODULUS, POISSON

@@ -12,7 +12,7 @@ import numpy as np
 from ...engineering.blast.site_law import SiteLaw
 from ...engineering.elasticity.steel_bars import Steel
 from ...engineering.ground_motion import GroundRecord
-from ...engineering.mechanics.joint import Joint
+from ...engineering.mechanics.strength import Joint
 from ...engineering.timing.timeline import Timeline
 from ...errors import Faults, ScenarioError
 from ..actions import PlannedAction

@@ -7,8 +7,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from ...engineering.mechanics.joint import Joint
-from ...engineering.mechanics.strength import Strength
+from ...engineering.mechanics.strength import Joint, Strength
 from ...engineering.steelwork.bolted_ends import BoltedEnd, bolted_end
 from ...engineering.steelwork.bolts import RUPTURE_M, Bolts, bolts_named
 from ...engineering.steelwork.catalogue import section_named

@@ -11,9 +11,9 @@ import numpy as np
 from ...engineering.drilled_charges.cages import BareBars
 from ...engineering.elasticity.equilibrium import Equilibrium
 from ...engineering.elasticity.tendons import CutTendon, TendonForces
-from ...engineering.mechanics.joint import Joint
 from ...engineering.mechanics.overloads import Overloads
 from ...engineering.mechanics.section_cuts import ConnectionLoads, SectionForces
+from ...engineering.mechanics.strength import Joint
 from ...engineering.units import STANDARD_GRAVITY_M_S2
 from ...errors import ScenarioError
 from ..results.stability import LARGEST_FACTOR

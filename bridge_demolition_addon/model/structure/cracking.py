@@ -23,9 +23,9 @@ from ...engineering.elasticity.tendons import TendonForces
 from ...engineering.foundations import Footings
 from ...engineering.geometry.vectors import product, transformed
 from ...engineering.mechanics.crack_faces import CrackFaces, TornFaces
-from ...engineering.mechanics.joint import Joint
 from ...engineering.mechanics.reinforcement import FaceBars
 from ...engineering.mechanics.section_cuts import ConnectionLoads
+from ...engineering.mechanics.strength import Joint
 from ...engineering.structure.connections import GROUND
 from ...engineering.units import STANDARD_GRAVITY_M_S2
 from ..schema import given

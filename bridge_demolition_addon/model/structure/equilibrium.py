@@ -13,10 +13,9 @@ from ...engineering.elasticity.joint_rows import JointFrames, components_first
 from ...engineering.elasticity.section_stiffness import SectionStiffness, in_frames
 from ...engineering.elasticity.tendons import TendonForces
 from ...engineering.mechanics.carried_sections import MemberSections, kinds_of
-from ...engineering.mechanics.joint import MOTIONS, Joint
 from ...engineering.mechanics.overloads import Overloads
 from ...engineering.mechanics.section_cuts import ConnectedFaces, ConnectionLoads, section_axes
-from ...engineering.mechanics.strength import Strength
+from ...engineering.mechanics.strength import MOTIONS, Joint, Strength
 from ...engineering.structure.connections import GROUND, Connections
 from ...engineering.units import STANDARD_GRAVITY_M_S2
 from ..schema import given

@@ -17,9 +17,9 @@ from ...engineering.elasticity.steel_bars import (
 )
 from ...engineering.geometry.mesh import TriangleMesh, plane_cuts
 from ...engineering.geometry.vectors import dot, length, transformed, transformed_back, unit
-from ...engineering.mechanics.joint import Joint
 from ...engineering.mechanics.reinforcement import FaceBars
 from ...engineering.mechanics.section_cuts import section_axes
+from ...engineering.mechanics.strength import Joint
 from ...engineering.structure.connections import Connections, triangles_in_faces
 from ..bridge.member import Member
 from ..materials import BarLayer

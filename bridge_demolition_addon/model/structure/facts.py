@@ -16,8 +16,7 @@ from ...engineering.elasticity.member_shapes import member_shapes
 from ...engineering.elasticity.section_stiffness import DAMPING_RATIO
 from ...engineering.geometry.overlap import SHARD_OVERLAP_TOLERANCE, Overlaps, hulls, overlaps
 from ...engineering.geometry.vectors import AXES, SIDES
-from ...engineering.mechanics.joint import Joint
-from ...engineering.mechanics.strength import MATERIALS, NEWTON_PER_SQUARE_MILLIMETRE, SMEARED, Strength
+from ...engineering.mechanics.strength import MATERIALS, NEWTON_PER_SQUARE_MILLIMETRE, SMEARED, Joint, Strength
 from ...engineering.reinforced_concrete.resistance import FRICTION_ALONG_CRACK
 from ...engineering.units import mass_text
 from ..actions import Fact

@@ -28,8 +28,8 @@ from ...engineering.elasticity.section_stiffness import (
     whole_section_turning,
 )
 from ...engineering.geometry.vectors import dot, product, transformed
-from ...engineering.mechanics.joint import Joint
 from ...engineering.mechanics.section_cuts import section_axes
+from ...engineering.mechanics.strength import Joint
 from ...engineering.structure.connections import GROUND, Connections
 from ...errors import GeometryError
 from .connection_source import CutMembers

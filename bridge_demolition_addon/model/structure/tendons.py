@@ -28,9 +28,9 @@ from ...engineering.geometry.mesh import TriangleMesh, volumes_and_centres
 from ...engineering.geometry.solids import Passages, passages
 from ...engineering.geometry.turned_boxes import TurnedBox
 from ...engineering.geometry.vectors import distance, dot, points_along, transformed_back
-from ...engineering.mechanics.joint import Joint
 from ...engineering.mechanics.reinforcement import FaceBars
 from ...engineering.mechanics.section_cuts import section_axes
+from ...engineering.mechanics.strength import Joint
 from ...engineering.structure.connections import Connections
 from ...errors import ScenarioError
 from ..actions import Fact

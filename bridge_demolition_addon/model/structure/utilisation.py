@@ -7,9 +7,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from ...engineering.elasticity.equations import connected_parts
-from ...engineering.mechanics.joint import Joint
 from ...engineering.mechanics.overloads import Overloads
 from ...engineering.mechanics.section_cuts import ConnectionLoads, section_axes, worst_around
+from ...engineering.mechanics.strength import Joint
 from .equilibrium import member_sections_of, overloads_of
 from .model import Model
 

@@ -10,9 +10,8 @@ import bpy
 import numpy as np
 
 from ...engineering.elasticity.steel_bars import USUAL_STEEL, Steel
-from ...engineering.mechanics.joint import Joint, JointMotion
 from ...engineering.mechanics.reinforcement import FaceBars
-from ...engineering.mechanics.strength import Ductility, Strength
+from ...engineering.mechanics.strength import Ductility, Joint, JointMotion, Strength
 from ...engineering.structure.connections import GROUND, Connections
 from ...engineering.timing.timeline import TimeStep
 from ..bodies import bodies_of

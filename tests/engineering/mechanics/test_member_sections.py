@@ -18,7 +18,6 @@ from bridge_demolition_addon.engineering.mechanics.carried_sections import (
     MemberSections,
     kinds_of,
 )
-from bridge_demolition_addon.engineering.mechanics.joint import Joint
 from bridge_demolition_addon.engineering.mechanics.overloads import Overloads
 from bridge_demolition_addon.engineering.mechanics.section_cuts import (
     ConnectedFaces,
@@ -27,7 +26,7 @@ from bridge_demolition_addon.engineering.mechanics.section_cuts import (
     section_axes,
     worst_around,
 )
-from bridge_demolition_addon.engineering.mechanics.strength import Strength
+from bridge_demolition_addon.engineering.mechanics.strength import Joint, Strength
 from bridge_demolition_addon.engineering.structure.connections import (
     Connections,
     connect,

@@ -8,8 +8,7 @@ import pytest
 from support.checkout import I235_FILE, ROOT
 from support.scenarios import I235
 
-from bridge_demolition_addon.engineering.mechanics.joint import Springs
-from bridge_demolition_addon.engineering.mechanics.strength import MATERIALS
+from bridge_demolition_addon.engineering.mechanics.strength import MATERIALS, Springs
 from bridge_demolition_addon.engineering.structure.connections import GROUND
 from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.scenario import ConnectionBetween, ConnectionSettings

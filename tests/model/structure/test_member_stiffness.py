@@ -14,7 +14,7 @@ from support.long_cases import long_but
 from bridge_demolition_addon.engineering.elasticity.section_stiffness import ElasticModuli
 from bridge_demolition_addon.engineering.fracture.shards import fracture
 from bridge_demolition_addon.engineering.geometry.solids import box
-from bridge_demolition_addon.engineering.mechanics.joint import Joint
+from bridge_demolition_addon.engineering.mechanics.strength import Joint
 from bridge_demolition_addon.engineering.structure.connections import (
     connect,
     foundations,

@@ -11,7 +11,7 @@ from bridge_demolition_addon.engineering.elasticity.section_stiffness import Ela
 from bridge_demolition_addon.engineering.fracture.shards import fracture
 from bridge_demolition_addon.engineering.geometry.mesh import TriangleMesh
 from bridge_demolition_addon.engineering.geometry.solids import box
-from bridge_demolition_addon.engineering.mechanics.joint import Joint
+from bridge_demolition_addon.engineering.mechanics.strength import Joint
 from bridge_demolition_addon.engineering.structure.connections import (
     GROUND,
     connect,

@@ -11,8 +11,8 @@ import pytest
 from bridge_demolition_addon.engineering.elasticity.section_stiffness import ElasticModuli
 from bridge_demolition_addon.engineering.fracture.shards import fracture
 from bridge_demolition_addon.engineering.geometry.solids import box
-from bridge_demolition_addon.engineering.mechanics.joint import Joint
 from bridge_demolition_addon.engineering.mechanics.section_cuts import section_axes
+from bridge_demolition_addon.engineering.mechanics.strength import Joint
 from bridge_demolition_addon.engineering.structure.connections import connect, neighbours_by_face, second_moments
 from bridge_demolition_addon.model.bridge.member import Member
 from bridge_demolition_addon.model.structure.connection_source import CutMembers

@@ -6,8 +6,7 @@ import pytest
 from support.blocks import Blocks
 from support.long_cases import long_but
 
-from bridge_demolition_addon.engineering.mechanics.joint import MOTIONS, Joint, Springs
-from bridge_demolition_addon.engineering.mechanics.strength import Strength
+from bridge_demolition_addon.engineering.mechanics.strength import MOTIONS, Joint, Springs, Strength
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 
 # Blender keeps gravity in single precision.
