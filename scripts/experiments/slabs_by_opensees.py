@@ -104,10 +104,10 @@ def carried(slab: Slab, machine_m: tuple[float, float] | None = None) -> dict[st
     return {name: -1e-3 * sum(ops.nodeDisp(node, 3) * stiff for node, stiff in own) for name, own in springs.items()}
 
 
-def divided(places_m: Sequence[float]) -> np.ndarray:
+def divided(places_m: Sequence[float], size_m: float = SIZE_M) -> np.ndarray:
     """Coordinates of a mesh that has all places."""
     places = sorted({round(place, 6) for place in places_m})
-    steps = [np.linspace(low, high, math.ceil((high - low) / SIZE_M) + 1)[1:] for low, high in pairwise(places)]
+    steps = [np.linspace(low, high, math.ceil((high - low) / size_m) + 1)[1:] for low, high in pairwise(places)]
     return np.concatenate([[places[0]], *steps])
 
 

@@ -25,6 +25,7 @@ from ..bridge.member import Member
 from ..materials import BarLayer
 from ..reinforcement.design import all_layers
 from ..schema import given
+from .box_webs import web_links
 from .composite_decks import DeckContacts
 from .connection_source import ConnectionRows, ConnectionSource, CutBridge
 from .member_layers import LayersOfMember, layers_of_members, spread_bars
@@ -136,6 +137,8 @@ class MemberBars(ConnectionSource):
         bars = _put_together(of_layers, rows.connections, cut.scenario.steel, is_cracked=cracked is not None)
         if starters:
             bars = bars.with_even(starters.yield_n, starters.openings_m)
+        if links := web_links(cut, layers, rows):
+            bars = bars.with_even(links.yield_n, links.openings_m)
         return replace(rows, bars=bars).with_part(ReinforcedFaces(layers, of_layers, have_bars))
 
 

@@ -79,6 +79,10 @@ _DECIMALS = 9
 _LEAST_IN_CLEAR = 2
 """Pieces of a girder between two supports, beside those above them: with fewer it is hardly a beam."""
 
+_LEAST_OF_BOX, _SHORTEST_OF_BOX = 4, 0.25
+"""Pieces of a box girder in each span, beside those above supports: with two, single bearings are off by 12 %; and the
+length of a piece by the depth of the box, from which on plates are cut into more shards."""
+
 _SHARDS_OF_PIECE, _MOST_PIECES = 6, 12
 """Shards of a piece of a member with many, and number of pieces of wide ones: what is cambered is straight in each."""
 
@@ -113,6 +117,8 @@ def fractured_members(
     counts = _counts(scenario, members, rules, own_points, density)
     seeds = np.random.SeedSequence(scenario.seed).generate_state(len(members))
     stations = _stations_m(scenario, members, counts, rules, own_points)
+    if not density:
+        stations |= _stations_of_boxes(scenario, members, counts, rules, own_points)
     own_cut = [len(points) > 0 or bool(rule and rule.stretch) for points, rule in zip(own_points, rules, strict=True)]
     on_columns = [slab for slab in slabs_on_columns(scenario, members) if not (density or own_cut[slab.member])]
     lattices = _lattices(on_columns, members, counts, scenario.seed)
@@ -343,6 +349,39 @@ def _stations_m(
             places = _at_bends(road.bends_m, begin, begin + length, pieces)
         counts[rows] = np.maximum(counts[rows], (len(places) + 1) * np.array([len(girders), *[1] * len(girders)]))
         found |= dict.fromkeys(rows, places)
+    return found
+
+
+def _stations_of_boxes(
+    scenario: Scenario,
+    members: Sequence[Member],
+    counts: np.ndarray,
+    rules: Sequence[MemberFracture | None],
+    own_points: Sequence[np.ndarray],
+) -> dict[int, list[float]]:
+    """Return where straight box girders are cut across, all of their plates together, by the members' indices.
+
+    Cut elsewhere, each plate would hold the cuts of the others closed, and single bearings have up to twice their
+    share. Each plate of a piece is one shard, but where there are more than twice as many.
+    """
+    found: dict[int, list[float]] = {}
+    bridge = scenario.bridge
+    if bridge is None or bridge.box_girder is None or not scenario.connections.is_elastic or scenario.fracture.stretch:
+        return found
+    deep = bridge.box_girder.depth_m + bridge.deck.thickness_m
+    for row, member in enumerate(members):
+        if member.kind != "deck" or not member.parts or member.line or rules[row] or len(own_points[row]):
+            continue
+        along, plates = member.without_skew(member.solid.vertices)[:, 0], len(member.parts)
+        begin, end = float(along.min()), float(along.max())
+        _, below_m = supports_below(members, row, [row])
+        supports = np.unique(below_m[:, 0].round(_DECIMALS)).tolist()
+        least = len(supports) + _LEAST_OF_BOX * max(len(supports) - 1, 1)
+        pieces = max(min(int(counts[row]) // plates, int((end - begin) / (_SHORTEST_OF_BOX * deep))), least)
+        draw = np.random.default_rng([scenario.seed, row])
+        found[row] = _pieces_m(begin, end, supports, pieces, 0.5 * deep, draw)
+        each = plates * (len(found[row]) + 1)
+        counts[row] = each if counts[row] < _FEW * each else counts[row]
     return found
 
 
