@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...engineering.geometry.vectors import dot, unit
-from ...engineering.reinforced_concrete.shear import FRICTION_ALONG_CRACK
+from ...engineering.reinforced_concrete.resistance import FRICTION_ALONG_CRACK
 from ..materials import BarLayer
 from ..scenario.bridge_checks import deck_underside, slab_underside
 from ..schema import SHORTEST_LENGTH_M
