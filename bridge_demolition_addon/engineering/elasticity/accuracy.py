@@ -6,7 +6,7 @@ import math
 
 from ..arithmetic import cube_root
 
-_MEASURED_SINGLE = ((0.0, 0.05), (25.0, 0.08))
+_MEASURED_SINGLE = ((0.0, 0.05), (25.0, 0.11))
 """Skew, in degrees, up to which single bearings of girders cast with their slab, and of slabs on rows of columns, are
 off by no more than this beside meshes of bricks and plates (OpenSees), in 60 to 400 shards."""
 
