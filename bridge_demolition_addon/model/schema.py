@@ -62,6 +62,8 @@ LARGEST_BY_UNIT = {
     "s": 1e6,
     "ms": 1e9,
     "m/s": 1e5,
+    "m³/h": 1e5,
+    "h": 1e5,
     "mm/s": 1e6,
     "rad/s": 1e5,
     "1/s": 1e4,

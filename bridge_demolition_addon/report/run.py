@@ -44,6 +44,7 @@ from .sections.ground_motion import motion_section, touchdown_section
 from .sections.loads import load_section, pull_section
 from .sections.plan_contents import with_plan_contents
 from .sections.planned_sequence import sequence_section
+from .sections.programme import programme_section
 from .sections.reinforcement import reinforcement_section, tendon_section
 from .sections.stages import has_stages, stages_section
 from .sections.summary import first_photo, run_summary
@@ -94,6 +95,8 @@ def run_document(
         sections.append(findings_section(run, debris, others, flyrock))
         if run.scenario:
             sections.append(sequence_section(run.scenario))
+            if (programme := programme_section(run.scenario)) is not None:
+                sections.append(programme)
         sections.append(model_section(run.results))
         if (terrain := terrain_section(run)) is not None:
             sections.append(terrain)

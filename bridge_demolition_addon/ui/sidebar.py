@@ -130,7 +130,7 @@ TREE: dict[str, tuple[str, ...]] = {
     ),
     DEMOLITION_ADVANCED: (
         *("BDA_PT_weakenings", "BDA_PT_tendon_cuts", "BDA_PT_loads", "BDA_PT_pressures"),
-        *("BDA_PT_equipment", "BDA_PT_fall_beds", "BDA_PT_ground_motion"),
+        *("BDA_PT_equipment", "BDA_PT_machines", "BDA_PT_programme", "BDA_PT_fall_beds", "BDA_PT_ground_motion"),
     ),
     "BDA_PT_explosion": ("BDA_PT_blast",),
     RUN: (

@@ -58,6 +58,7 @@ from .geometry import Geometry
 from .girders import DECK_KIND, GirderSpan, StudRow, joints_of_deck
 from .jackhammer import Jackhammer
 from .joint_settings import GROUND_NAME
+from .programme import Machine, Programme
 from .recording import PictureSettings, RecordingSettings, ReportSettings
 from .reinforcement import BarRule, BridgeReinforcement, GeometryReinforcement
 from .site import Exclusion, Neighbour, Site, Zone
@@ -132,6 +133,8 @@ class Scenario(Table):
     neighbours: tuple[Neighbour, ...] = ()
     vibration_laws: tuple[VibrationLaw, ...] = ()
     equipment: tuple[Equipment, ...] = ()
+    machines: tuple[Machine, ...] = ()
+    programme: Programme | None = None
 
     def site_law(self, of: str) -> SiteLaw | None:
         """Return how the ground carries vibration of `charges` or of the `fall`; None where no one did."""

@@ -124,7 +124,7 @@ def test_every_key_with_a_unit_carries_it_in_its_name():
     }
     in_names |= {"MN/m": "_mn_m", "MN·m/rad": "_mnm_rad"}
     in_names |= {"kN/m²": "_kn_m2", "kN": "_kn", "mm": "_mm", "%": "_percent"}
-    in_names |= {"MN/m³": "_mn_m3", "kPa": "_kpa", "Hz": "_hz", "m/s²": "_m_s2"}
+    in_names |= {"MN/m³": "_mn_m3", "kPa": "_kpa", "Hz": "_hz", "h": "_h", "m³/h": "_m3_h", "m/s²": "_m_s2"}
     for table_class in all_tables(Scenario):
         for item in key_fields(table_class):
             unit = item.metadata["key"].unit
