@@ -9,7 +9,7 @@ from typing import Any
 
 from ..errors import OutputError
 from ..model.scenario.file import scenario_from_text
-from ..model.scenario.starter import METHODS, Answers, starter_text
+from ..model.scenario.starter import METHODS, PIERS, SECTIONS, Answers, starter_text
 from ..system.disk import write_whole_text, writing
 from .arguments import quantity
 
@@ -30,6 +30,9 @@ def add_to(commands: argparse._SubParsersAction) -> None:
         parser.add_argument(option, dest=name, type=read, metavar=metavar, help=text)
     for name, (metavar, meaning) in _OF_THE_ROAD.items():
         parser.add_argument(f"--{name.partition('_')[0]}", dest=name, type=_signed, metavar=metavar, help=meaning)
+    for name, (known, meaning) in _KINDS.items():
+        text = f"{meaning} ({getattr(usual, name)})"
+        parser.add_argument(f"--{name}", choices=tuple(known), metavar="|".join(known), help=text)
     parser.set_defaults(execute=new)
 
 
@@ -42,7 +45,7 @@ def new(arguments: argparse.Namespace) -> None:
         raise OutputError(f"{file}: folder {file.parent} is not there; make it first")
     if file.exists():
         raise OutputError(f"{file}: exists already; choose another name")
-    names = (*_QUESTIONS, *_OF_THE_ROAD)
+    names = (*_QUESTIONS, *_OF_THE_ROAD, *_KINDS)
     given = {name: getattr(arguments, name) for name in names if getattr(arguments, name) is not None}
     answers = replace(Answers(), **given)
     if sys.stdin.isatty():
@@ -117,3 +120,6 @@ _OF_THE_ROAD = {
     "haunch_m": ("M", "how much deeper the slab is over inner piers; it is as deep everywhere without it"),
 }
 """Of each option that is not asked for: what stands for it in the help, and its meaning."""
+
+_KINDS = {"section": (SECTIONS, "section of the deck"), "piers": (PIERS, "piers")}
+"""Of each option that names a kind: which there are, and its meaning."""

@@ -65,6 +65,25 @@ def test_a_haunched_bridge_on_a_curved_ramp_stands(tmp_path, capsys, by):
     assert "The bridge stands under its own weight" in capsys.readouterr().out
 
 
+@pytest.mark.parametrize(
+    ("section", "piers"), [("hollow", "hammerhead"), ("t-beam", "wall"), ("t-beam", "round"), ("box", "round")]
+)
+def test_sections_and_piers_of_the_stock_stand(tmp_path, capsys, section, piers):
+    path = tmp_path / "bridge.toml"
+    options = ["--spans", "18 22 18", "--width", "9", "--section", section, "--piers", piers]
+    assert main(["new", str(path), *options]) == 0
+    bridge = read_scenario(path).bridge
+    kinds = {"hollow": bridge.voids, "t-beam": bridge.girders, "box": bridge.box_girder}
+    assert [name for name, table in kinds.items() if table] == [section]
+    assert (bridge.piers.kind == "round columns", bridge.pier_caps is not None) == (
+        piers == "round",
+        piers == "hammerhead",
+    )
+    capsys.readouterr()
+    assert main(["check", str(path)]) == 0  # it names the pier that is taken away
+    assert "The bridge stands under its own weight" in capsys.readouterr().out
+
+
 def test_it_runs_and_stands_until_a_pier_is_taken_away(tmp_path):
     path, output = tmp_path / "bridge.toml", tmp_path / "results"
     assert main(["new", str(path), "--spans", "8", "--width", "4", "--title", "Short bridge"]) == 0

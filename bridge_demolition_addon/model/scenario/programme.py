@@ -89,11 +89,9 @@ class Machine(_BesideRun):
         if self.members and self.reach_m is not None:
             far = self._distances_m(site)
             beyond = int((far > self.reach_m).sum())
-            found = f"{beyond} of {len(far)} shards are beyond it" if beyond else "all are within it"
-            yield (
-                "",
-                f"its members are {far.min():.1f} to {far.max():.1f} m away, its reach is {self.reach_m:g} m: {found}",
-            )
+            found = f"{beyond} of {len(far)} shards are farther away" if beyond else "all are within that"
+            distances = f"its members are {far.min():.1f} to {far.max():.1f} m away"
+            yield "", f"{distances}, it works up to {self.reach_m:g} m: {found}"
 
     def unusual(self, site: Worksite) -> Iterator[str]:
         low, high = _USUAL_M3_H.get(self.tool, (0.0, math.inf))

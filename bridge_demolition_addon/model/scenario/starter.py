@@ -32,12 +32,16 @@ class Answers:
     crossfall_percent: float | None = None
     radius_m: float | None = None
     haunch_m: float | None = None
+    section: str = "slab"
+    piers: str = "wall"
 
     @property
     def slab_m(self) -> float:
         """Thickness of the slab, m, on whole centimetres."""
         if self.thickness_m is not None:
             return self.thickness_m
+        if self.section in _BELOW_SLAB:
+            return _SLAB_ON_WEBS_M
         return max(_LEAST_THICKNESS_M, round(_THICKNESS_OVER_SPAN * max(self.spans_m), 2))
 
     def place_m(self, along_m: float) -> tuple[float, float]:
@@ -52,15 +56,20 @@ def starter_text(answers: Answers) -> str:
     """Return a scenario file, with comments that say what to change."""
     if answers.by not in METHODS:
         raise ScenarioError(f"--by is {json.dumps(answers.by)}: expected one of {', '.join(METHODS)}")
+    for name, known in (("section", SECTIONS), ("piers", PIERS)):
+        if (value := getattr(answers, name)) not in known:
+            raise ScenarioError(f"--{name} is {json.dumps(value)}: expected one of {', '.join(known)}")
     spans = ", ".join(map(_number, answers.spans_m))
     return _TEXT.format(
         title=json.dumps(answers.title, ensure_ascii=False),
         spans=spans,
         width=_number(answers.width_m),
+        section=SECTIONS[answers.section](answers),
+        piers=PIERS[answers.piers](answers),
+        caps=_caps(answers) if answers.piers == "hammerhead" else "",
         thickness=_number(answers.slab_m),
         height=_number(answers.height_m),
         line=_line(answers),
-        wall=_number(0.75 * answers.width_m),
         shards=_SHARDS_OF_A_SPAN * len(answers.spans_m),
         action=METHODS[answers.by](answers),
     )
@@ -89,8 +98,14 @@ def _removal(answers: Answers) -> str:
 # What is done: an excavator takes away a pier. Names of members are those that bda check lists.
 [[removals]]
 time_s = 0.5
-members = ["pier {1 + len(answers.spans_m) // 2}"]
+members = [{_names_of_pier(answers, 1 + len(answers.spans_m) // 2)}]
 """
+
+
+def _names_of_pier(answers: Answers, number: int) -> str:
+    columns = _round_columns(answers) if answers.piers == "round" else 1
+    names = [f"pier {number}"] if columns == 1 else [f"pier {number} column {one + 1}" for one in range(columns)]
+    return ", ".join(map(json.dumps, names))
 
 
 def _ball(answers: Answers) -> str:
@@ -128,6 +143,99 @@ mass_kg = 300                    # of TNT
 METHODS: dict[str, Callable[[Answers], str]] = {"removal": _removal, "ball": _ball, "charge": _charges}
 """What can be done to the bridge, by the words of `bda new`."""
 
+
+def _girders(answers: Answers) -> str:
+    depth = round(max(answers.spans_m) / 15.0, 2)
+    number = max(2, round(answers.width_m / 2.6))
+    return f"""\
+[bridge.girders]                 # below the slab
+number = {number}
+width_m = 0.5
+depth_m = {_number(depth)}
+
+"""
+
+
+def _box(answers: Answers) -> str:
+    depth = max(1.2, round(max(answers.spans_m) / 18.0, 2))
+    return f"""\
+[bridge.box_girder]              # below the slab, open at its ends
+width_m = {_number(round(0.55 * answers.width_m, 2))}
+depth_m = {_number(depth)}
+web_thickness_m = 0.4
+bottom_thickness_m = 0.25
+
+"""
+
+
+def _voids(answers: Answers) -> str:
+    diameter = round(0.55 * answers.slab_m, 2)
+    return f"""\
+[bridge.voids]                   # tubes in the slab
+number = {max(1, int(0.8 * answers.width_m / (1.5 * diameter)))}
+diameter_m = {_number(diameter)}
+
+"""
+
+
+def _wall(answers: Answers) -> str:
+    wide = answers.width_m if answers.section == "t-beam" else 0.55 * answers.width_m
+    wall = wide if answers.section in _BELOW_SLAB else 0.75 * answers.width_m
+    return f"""\
+kind = "wall"                    # or "columns", with columns = 2
+column_length_m = 0.8            # along the road
+column_width_m = {_number(wall)}             # across the road
+"""
+
+
+def _round_columns(answers: Answers) -> int:
+    return max(2, round(answers.width_m / 2.6)) if answers.section == "t-beam" else 2
+
+
+def _round(answers: Answers) -> str:
+    number = _round_columns(answers)
+    return f"""\
+kind = "round columns"
+columns = {number}
+column_length_m = 1.0            # their diameter
+column_width_m = 1.0             # the same
+"""
+
+
+def _hammerhead(answers: Answers) -> str:
+    return f"""\
+columns = 1
+column_length_m = 1.2            # along the road
+column_width_m = {_number(round(0.35 * answers.width_m, 2))}             # across the road
+"""
+
+
+def _caps(answers: Answers) -> str:
+    wide = _number(round((0.55 if answers.section == "box" else 0.9) * answers.width_m, 2))
+    return f"""\
+[bridge.pier_caps]               # hammerheads: lower at their ends
+length_m = 1.4
+width_m = {wide}
+height_m = 1.4
+end_height_m = 0.7
+
+"""
+
+
+_SLAB_ON_WEBS_M = 0.25
+_BELOW_SLAB = ("t-beam", "box")
+
+SECTIONS: dict[str, Callable[[Answers], str]] = {
+    "slab": lambda _: "",
+    "hollow": _voids,
+    "t-beam": _girders,
+    "box": _box,
+}
+"""Sections of the deck, by the words of `bda new`."""
+
+PIERS: dict[str, Callable[[Answers], str]] = {"wall": _wall, "round": _round, "hammerhead": _hammerhead}
+"""Piers, by the words of `bda new`."""
+
 _TEXT = """\
 # Written by bda new. Change what you know better: lengths are in m, masses in kg, as the name of each key says.
 # bda explain KEY says what a key means, such as bda explain bridge.deck.width_m; docs/scenario.md lists all keys.
@@ -149,13 +257,10 @@ width_m = {width}
 thickness_m = {thickness}
 overhang_m = 0.5                 # of the deck beyond the axes of the first and the last pier
 
-[bridge.piers]
-kind = "wall"                    # or "columns", with columns = 2
-column_length_m = 0.8            # along the road
-column_width_m = {wall}             # across the road
-height_m = {height}
+{section}[bridge.piers]
+{piers}height_m = {height}
 
-[bridge.bearings]                # what carries the deck on the piers; without this table it is one piece with them
+{caps}[bridge.bearings]  # what carries the deck on the piers; without this table it is one piece with them
 pinned_at = 1                    # the others let it slide along the road
 
 # Bars as such a bridge would be designed with; bda check prints them. With drawings, give layers of [[reinforcement]].

@@ -108,8 +108,8 @@ def test_check_says_what_a_machine_reaches_and_what_is_late():
     assert "6 m³/h, 93 dB(A) at 10 m, 79 dB(A) at 50 m, 73 dB(A) at 100 m" in lines
     assert "23.0 h too late for railway closed" in lines
     assert "day 1, 20:00 to day 1, 23:00" in lines
-    assert "its reach is 12 m" in lines
-    assert "shards are beyond it" in lines
+    assert "it works up to 12 m" in lines
+    assert "shards are farther away" in lines
 
 
 def test_noise_falls_by_6_db_with_twice_the_distance():
