@@ -40,7 +40,8 @@ from .document.blocks import Document, Report, write_tables
 from .document.drawings import Drawings, drawings
 from .document.html import write_html
 from .document.pdf import write_pdf
-from .document.word import check_word, is_as_written, write_word
+from .document.word import is_as_written, write_word
+from .document.word_library import check_word
 from .ensemble.optimise import optimise_report, read_candidates
 from .ensemble.reported_ensemble import read_study_runs
 from .ensemble.search import read_answer, search_report

@@ -14,7 +14,7 @@ from support.run_folders import TOLD, flying_shards, keep_run
 from bridge_demolition_addon.cli.main import main
 from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.errors import MissingLibraryError, OutputError
-from bridge_demolition_addon.report.document import word
+from bridge_demolition_addon.report.document import word_library
 from bridge_demolition_addon.report.document.blocks import Document, Listing, Section
 from bridge_demolition_addon.report.document.word import write_word
 from bridge_demolition_addon.report.write import write_report
@@ -106,6 +106,6 @@ def test_a_file_that_was_changed_by_hand_is_not_overwritten(made, tmp_path):
 
 
 def test_without_the_library_the_message_names_it(tmp_path, monkeypatch):
-    monkeypatch.setattr(word, "WORD_LIBRARY", "no_such_library")
+    monkeypatch.setattr(word_library, "WORD_LIBRARY", "no_such_library")
     with pytest.raises(MissingLibraryError, match=r"python-docx, .* pip install 'bridge-demolition-addon\[word\]'"):
         write_report([tmp_path], None, word=True, progress=Silence())

@@ -6,18 +6,17 @@ import io
 import zipfile
 from collections.abc import Callable, Sequence
 from datetime import datetime
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
 from matplotlib.figure import Figure
 
 from ...charts.style import PAGE_WIDTH_MM
-from ...errors import MissingLibraryError
 from ...system.disk import whole_file
 from ..languages.translation import IN_ENGLISH, Translation
 from .blocks import AnimatedModel, Block, DataTable, Document, Listing, Paragraph, Photo, Picture
 from .drawings import Drawings
+from .word_library import check_word
 
 _NO_TIME = datetime(2000, 1, 1)
 """When the file says it was made: the same run gives the same bytes."""
@@ -223,21 +222,3 @@ def _without_times(content: bytes) -> bytes:
         for name in read.namelist():
             written.writestr(zipfile.ZipInfo(name, _ZIP_TIME), read.read(name), zipfile.ZIP_DEFLATED)
     return file.getvalue()
-
-
-WORD_LIBRARY = "docx"
-"""Name that python-docx is imported by."""
-
-
-def word_is_there() -> bool:
-    """Return whether this Python has the library."""
-    return find_spec(WORD_LIBRARY) is not None
-
-
-def check_word() -> None:
-    """Make sure that the library is there."""
-    if not word_is_there():
-        raise MissingLibraryError(
-            "a Word file is written by python-docx, which this Python does not have: pip install "
-            "'bridge-demolition-addon[word]', or use bda report --docx where that is installed"
-        )

@@ -21,7 +21,7 @@ from ...exports.formats import FORMATS, new_export
 from ...model.debris.survey import SURVEY_FILES
 from ...model.run_folder.files import FORCE_CHART, REPORT_PAGE, REPORT_PDF, REPORT_WORD
 from ...model.run_folder.folder import keep_site
-from ...report.document.word import word_is_there
+from ...report.document.word_library import word_is_there
 from ...report.languages.translation import ENGLISH, language_names
 from ...scene.rendering.ground import show_survey
 from ...simulation.blender_events import shown_results
