@@ -29,8 +29,13 @@ _kept: list[Message] = []
 
 
 def tell(operator: bpy.types.Operator, level: str, text: str) -> None:
-    """Report a sentence as Blender does, which shows it for some seconds, and keep it for the sidebar."""
-    operator.report({level}, text)
+    """Report a sentence as Blender does, which shows it for some seconds, and keep it for the sidebar.
+
+    For an error Blender opens a window under the mouse, which takes the next click: an error of a button that was
+    clicked is reported as a warning, and only scripts get it as one that they can catch.
+    """
+    was_clicked = operator.options.is_invoke
+    operator.report({"WARNING" if was_clicked and level == "ERROR" else level}, text)
     note(bpy.context.scene, operator.bl_idname, level, text)
 
 

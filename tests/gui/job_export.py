@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A run is exported from the menu of the panel Results, and what this Blender cannot write is told."""
+"""A run is exported from the menu of the panel Results, and reported with a Word file."""
 
 import re
 from pathlib import Path
@@ -41,6 +41,17 @@ def steps(person: Person) -> Steps:
     yield from person.wait_for("the series is there", (results / "export" / "bodies.pvd").is_file, 60.0)
     yield from person.wait_for("and it is over", lambda: not something_goes_on(), 20.0)
     person.take_reports()
+    yield from report_in_word(person, panels, results)
+
+
+def report_in_word(person: Person, panels: Panels, results: Path) -> Steps:
+    yield from panels.show_only("Report")
+    yield from person.click("bda.make_word_report")
+    yield from person.wait_for("the Word file is there", (results / "report.docx").is_file, 600.0)
+    yield from person.wait_for("and it is over", lambda: not something_goes_on(), 60.0)
+    with ZipFile(results / "report.docx") as parts:
+        person.expect("it is a document of Word", "word/document.xml" in parts.namelist())
+    person.expect_reports("page and Word file are named", "report.docx")
 
 
 def sheets(workbook: Path) -> set[str]:

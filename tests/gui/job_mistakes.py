@@ -44,7 +44,6 @@ def build_what_is_not_there(person: Person) -> Steps:
     yield from build(person, SCENARIO.with_name("nowhere.toml"))
     yield from person.picture("no_such_scenario")
     person.expect_reports("a scenario that is not there is an error", "nowhere.toml")
-    yield from person.close_message()
     person.expect("it changes nothing", everything(), before)
     person.expect("it makes no rigid-body world", person.scene.rigidbody_world is None)
 
@@ -76,7 +75,6 @@ def record_into_a_folder_in_use(person: Person) -> Steps:
     yield from person.picture("folder_in_use")
     person.expect_reports("a folder that is there is an error", "overwriting")
     person.expect("it registers nothing", recording_runs(), False)
-    yield from person.close_message()
     yield from person.click("overwrite")
     yield from person.click("bda.register_handler")
     person.expect("it is used once overwriting is allowed", recording_runs(), True)
@@ -84,7 +82,6 @@ def record_into_a_folder_in_use(person: Person) -> Steps:
     yield from person.click("bda.unregister_handler")
     yield from person.picture("nothing_recorded")
     person.expect_reports("nothing recorded without playing", "play the timeline")
-    yield from person.close_message()
 
 
 def record_after_playing_alone(person: Person) -> Steps:

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A model of one's own: its meshes become members, are seen as outlines in their place, and are built."""
 
+from pathlib import Path
+
 import bpy
 import numpy as np
 from habits import delete_all
@@ -27,10 +29,14 @@ def steps(person: Person) -> Steps:
     person.scene.bda.scenario.use_ball = False
     yield from panels.show_only("Own Model")
     yield from person.picture("modelled")
-    yield from person.hover("bda.add_selected_members")
-    with person.in_sidebar():
-        bpy.ops.bda.add_selected_members(directory=str(person.folder / "members"))
+    yield from person.click("bda.add_selected_members")
     yield 0.5
+    person.expect("nothing asks for a folder", len(bpy.context.window_manager.windows), 1)
+    tables = person.scene.bda.scenario.geometry
+    person.expect("all meshes of what was selected are members", {table.name for table in tables}, set(PARTS))
+    person.expect(
+        "their files are in a folder of their own", {Path(table.file).parent.name for table in tables}, {"members_1"}
+    )
     lines = module("ui.preview.decorator").preview_lines(person.scene.bda)
     person.expect("outlines stand for the meshes", np.ptp(lines, axis=0).round(3).tolist(), list(SIZE_M))
     person.scene.bda.show_preview = True
@@ -53,11 +59,12 @@ def steps(person: Person) -> Steps:
 
 
 def model(person: Person) -> None:
-    """Three boxes, selected."""
+    """Three boxes and a light, selected."""
     with bpy.context.temp_override(window=person.window, area=person.view):
         for name, (size_m, middle_m) in PARTS.items():
             bpy.ops.mesh.primitive_cube_add(size=1.0, location=middle_m, scale=size_m)
             bpy.context.active_object.name = name
+        bpy.ops.object.light_add()
         bpy.ops.object.select_all(action="SELECT")
 
 

@@ -101,7 +101,6 @@ def without_a_shard(person: Person, panels: Panels) -> Steps:
     yield from person.click("bda.run")
     yield 0.5
     person.expect("loose connections are named", said(person, "remove loose connections first"))
-    yield from person.close_message()
     yield from person.click("bda.remove_loose_connections")
     yield from begin(person)
     person.expect("that a shard is missing is said as it begins", said(person, "1 shard is missing"))
@@ -143,7 +142,6 @@ def from_rubble(person: Person) -> Steps:
     person.expect("nothing runs from rubble", recording_runs(), False)
     person.expect("and it is said why", said(person, "begins with rubble") and said(person, "build the scenario again"))
     yield from person.picture("rubble")
-    yield from person.close_message()
 
 
 def with_nothing_left(person: Person) -> Steps:

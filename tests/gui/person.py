@@ -186,12 +186,6 @@ class Person:
         """Move the mouse over the 3D view, where shortcuts are meant for it."""
         yield from self.move(self.view.x + 200, self.view.y + 100)
 
-    def close_message(self) -> Steps:
-        """Close the window of a report that popped up under the mouse."""
-        yield from self.press("ESC")
-        yield from self.move_to_view()
-        yield 0.5
-
     def press(self, key: str, unicode: str | None = None, **modifiers: bool) -> Steps:
         """Press a key or button of the mouse where the mouse is, and let it go."""
         x, y = self.mouse

@@ -14,6 +14,7 @@ from ...model.bridge.mesh_files import exported
 from ...model.structure.point_files import paint_text
 from ...scene.user_meshes import painted_points, solid_of_object
 from ..operators import FileWriter, UndoableAction, absolute, write_file
+from ..recording.session import new_folder
 from ..sidebar import path_property
 from .preset_menu import name_own_model
 
@@ -21,20 +22,26 @@ _CONCRETE_KG_M3 = 2400.0
 _MESH_SUFFIX, _PAINT_SUFFIX = ".ply", ".csv"
 
 
+_FOLDER = "members"
+"""Folders of meshes are called so, with a number."""
+
+
+def _selected_meshes(context: bpy.types.Context) -> list[bpy.types.Object]:
+    return [chosen for chosen in context.selected_objects if chosen.type == "MESH"]
+
+
 def _no_mesh_selected(context: bpy.types.Context) -> str | None:
-    is_selected = any(selected_object.type == "MESH" for selected_object in context.selected_objects)
-    return None if is_selected else "Select the meshes that are to be members first"
+    return None if _selected_meshes(context) else "Select the meshes that are to be members first"
 
 
 class BDA_OT_add_selected_members(UndoableAction, bpy.types.Operator):
-    """Add the selected meshes to the scenario as members, each in a file of a folder, and hide them"""
+    """Add the selected meshes to the scenario as members, each in a file of a new folder, and hide them"""
 
     bl_label = "Add Selected Meshes"
     changes_objects = True
     blocked_by = (_no_mesh_selected,)
 
-    directory: path_property("Folder", "Folder that the meshes are written to", "DIR_PATH")
-    filter_folder: BoolProperty(default=True, options={"HIDDEN"})
+    directory: path_property("Folder", "Folder that the meshes are written to; a new one if none is given", "DIR_PATH")
     density_kg_m3: FloatProperty(
         name="Density", description="Density of all of them, kg/m³", default=_CONCRETE_KG_M3, min=1e-3
     )
@@ -45,15 +52,12 @@ class BDA_OT_add_selected_members(UndoableAction, bpy.types.Operator):
         default=False,
     )
 
-    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
-        context.window_manager.fileselect_add(self)
-        return {"RUNNING_MODAL"}
-
     def act(self, context: bpy.types.Context) -> str:
-        scenario, selected = context.scene.bda.scenario, context.selected_objects
+        scenario, selected = context.scene.bda.scenario, _selected_meshes(context)
         tables = scenario.geometry
         solids = {member.name: solid_of_object(member) for member in selected}
-        files = _new_files(absolute(self.directory), list(solids), {absolute(table.file) for table in tables})
+        folder = absolute(self.directory) if self.directory else new_folder(_FOLDER)
+        files = _new_files(folder, list(solids), {absolute(table.file) for table in tables})
         for name, path in files.items():
             write_file(path, exported(solids[name].solid, _MESH_SUFFIX), new_folder=True)
         for name, path in files.items():  # only now, as writing may fail
@@ -70,6 +74,8 @@ class BDA_OT_add_selected_members(UndoableAction, bpy.types.Operator):
             for repair in repaired.repairs:
                 self.report({"INFO"}, f"{name}: {repair}")
         done = f"{len(files)} members added from the selected meshes, which are hidden now"
+        if others := [chosen.name for chosen in context.selected_objects if chosen.type != "MESH"]:
+            done += f"; no meshes, and left out: {', '.join(others)}"
         return f"{done}; the panel Sizes is switched off" if switched_off else done
 
 

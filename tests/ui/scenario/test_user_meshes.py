@@ -88,11 +88,26 @@ def test_a_changed_mesh_takes_the_place_of_what_was_added_before(extension, sett
     assert {member.name: member.volume_m3 for member in build_model(scenario).members}["deck"] > 19.0
 
 
-def test_what_cannot_be_a_member_changes_nothing(extension, settings, objects, tmp_path):
+def test_one_click_takes_the_meshes_of_all_that_is_selected_and_makes_a_folder(extension, settings, objects, tmp_path):
     lamp = extension.data.objects.new("lamp", extension.data.lights.new("lamp", "POINT"))
     extension.context.scene.collection.objects.link(lamp)
     lamp.select_set(True)
-    with pytest.raises(RuntimeError, match="lamp: is of type LIGHT"):
+    extension.ops.wm.save_as_mainfile(filepath=str(tmp_path / "bridge.blend"))
+    assert extension.ops.bda.add_selected_members("INVOKE_DEFAULT") == {"FINISHED"}
+    files = sorted(path.name for path in (tmp_path / "members_1").iterdir())
+    assert files == ["deck.ply", "east wall.ply", "west wall.ply"]
+    tables = extension.context.scene.bda.scenario.geometry
+    assert {table.name for table in tables} == {"deck", "east wall", "west wall"}
+    assert not lamp.hide_get()
+
+
+def test_what_cannot_be_a_member_changes_nothing(extension, settings, objects, tmp_path):
+    mesh = extension.data.meshes.new("sail")
+    mesh.from_pydata([(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)], [], [(0, 1, 2)])
+    sail = extension.data.objects.new("sail", mesh)
+    extension.context.scene.collection.objects.link(sail)
+    sail.select_set(True)
+    with pytest.raises(RuntimeError, match="sail"):
         extension.ops.bda.add_selected_members(directory=str(tmp_path / "members"))
     assert not (tmp_path / "members").exists() and not len(settings.scenario.geometry)
     assert not any(obj.hide_get() for obj in objects)
