@@ -32,6 +32,8 @@ def steps(person: Person) -> Steps:
         person.scene.bda.output_directory = str(folder)
         yield from run(person, last, stops=name == "stopped")
         yield from shows_the_run(person, f"{name}, as it was run", folder)
+        hint = module("ui.scenario.hints").next_step(person.scene)
+        person.expect(f"{name}: what is next is said", "Run again" in hint, name == "stopped")
         yield from select_and_undo(person, f"{name}, after Ctrl-Z", folder)
         yield from redo(person)
         yield from shows_the_run(person, f"{name}, after Ctrl-Shift-Z", folder)

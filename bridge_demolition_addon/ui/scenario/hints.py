@@ -11,7 +11,7 @@ from pathlib import Path
 import bpy
 from bpy.app.handlers import persistent
 
-from ...errors import DemolitionError
+from ...errors import DemolitionError, OutputError
 from ...model.results.stability import COMES_DOWN, STANDS, Stability
 from ...model.scenario.connections import LARGE_MODEL, MATERIAL_OF_LARGE_MODELS
 from ...model.scenario.contacts import QUANTITIES
@@ -24,6 +24,7 @@ from ...simulation.kept_run import has_run
 from ..languages.words import translated
 from ..operators import Action, recording_runs, unset
 from ..results.operator import open_path
+from ..results.shown_run import shown_run
 from ..sidebar import draw_sentence
 from ..stages import show_checked
 from .built import changes, is_emptied
@@ -83,7 +84,17 @@ def next_step(scene: bpy.types.Scene) -> str:
         return "Next: values have changed; Build Again and Run"
     if not has_run(scene):
         return "Next: Run, and watch it"
+    if _was_stopped(scene):
+        return "Next: Run again to its end, as a run that was stopped says too little; what it has is in Results below"
     return "Next: see Results below, and make a Report"
+
+
+def _was_stopped(scene: bpy.types.Scene) -> bool:
+    try:
+        run = shown_run(scene)
+    except OutputError:  # the panel Results says so
+        return False
+    return run is not None and not run.summary.completed
 
 
 def breaking_note(scenario: bpy.types.PropertyGroup) -> str:

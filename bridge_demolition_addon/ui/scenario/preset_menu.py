@@ -30,6 +30,35 @@ _SHOWN_SCALE = 5.0
 _PICTURE_SCALE = 4.5
 """Of those to choose from, of which 8 are beside each other: all fit below it in a window of 1280 x 800."""
 
+_BELOW_PICTURE = {
+    "reinforced_span_ball": "RC span, ball",
+    "reinforced_spans_pier_removed": "RC, no pier",
+    "span_of_2019_ball": "2019, ball",
+    "span_of_2019_explosives": "2019, blast",
+    "three_span_box_girder": "Box girder",
+    "two_spans_13m_ball": "2 x 13 m, ball",
+    "frame_leg_blasted": "Frame, blast",
+    "deck_truss_severed": "Deck truss",
+    "rolled_beams_severed": "Rolled beams",
+    "steel_box_girder_dropped": "Steel box",
+    "composite_span_dropped": "Composite",
+    "tower_pulled_over": "Tower pulled",
+    "beam_cut_in_stages": "Beam in cuts",
+    "i235_one_span": "I-235 single",
+    "i235_three_spans_between_decks": "I-235 decks",
+    "i235_three_spans_mid_span": "I-235 middle",
+    "i235_three_spans_near_end": "I-235 end",
+    "i235_three_spans_neighbouring_deck": "I-235 next",
+    "i235_two_spans": "I-235 double",
+    "jackhammer_dismantling": "Jackhammers",
+    "single_span_awake": "Span awake",
+    "single_span_explosives": "Span, blast",
+    "two_spans_13m_explosives": "2 x 13 m, blast",
+    "two_spans_20m_at_once": "2 x 20 m, once",
+    "two_spans_20m_delays": "2 x 20 m, then",
+}
+"""Names of presets whose own are too long below their picture, where Blender cuts them off."""
+
 _NO_ICON = "FILE_BLANK"
 _BUTTON, _REFUSED = "bda.load_preset", "poll()"
 """The button of a preset, and what Blender says before its reason why that cannot work now."""
@@ -91,7 +120,7 @@ def _preset_items(_locale: str) -> list[tuple[str, str, str, int, int]]:
     """Return them with their numbers, which count from 1; a list that stays, as Blender keeps none of its texts."""
     pictures = loaded_pictures()
     return [
-        (name, label_of_preset(name), described_preset(name), pictures[name].icon_id, number)
+        (name, label_below_picture(name), described_preset(name), pictures[name].icon_id, number)
         for number, name in enumerate(preset_files(), start=1)
     ]
 
@@ -187,6 +216,11 @@ def label_of_preset(name: str) -> str:
     """Return what a preset is called in the menu."""
     words = name.replace("_", " ").replace("i235", "I-235").replace("neighbouring", "next")
     return words[:1].upper() + words[1:]
+
+
+def label_below_picture(name: str) -> str:
+    """Return what a preset is called below its picture."""
+    return _BELOW_PICTURE.get(name) or label_of_preset(name)
 
 
 def unregister() -> None:

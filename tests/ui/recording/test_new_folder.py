@@ -69,6 +69,19 @@ def test_a_run_of_a_saved_file_is_beside_it_and_its_report_in_it(small, home, tm
     assert (folder / "report.html").is_file()
 
 
+def test_after_a_run_that_was_stopped_the_next_step_is_to_run_again(small, home):
+    def delete(scene, _depsgraph):
+        if scene.frame_current == 3:
+            small.data.objects.remove(scene.rigidbody_world.constraints.objects[0])
+
+    small.app.handlers.frame_change_post.append(delete)
+    try:
+        small.ops.bda.run()
+    finally:
+        small.app.handlers.frame_change_post.remove(delete)
+    assert next_step(small.context.scene).startswith("Next: Run again to its end")
+
+
 def test_the_next_step_follows_the_work(extension, settings, home):
     scene = extension.context.scene
     assert "Presets" in next_step(scene) and "Build Scenario" in next_step(scene)

@@ -10,6 +10,8 @@ from bridge_demolition_addon.ui.messages import messages_of
 from bridge_demolition_addon.ui.scenario.values import scenario_of
 
 SMALLEST_PX = (256, 192)
+LETTERS_PT, BELOW_PICTURE_PX = 11, 80
+"""Height of letters in the window, and what it draws whole below a picture of 4.5 lines: 78 is, 85 is cut off."""
 FOLDERS = ("arches_and_frames", "steel", "prestressed")
 KINDS = {path.stem: path for folder in FOLDERS for path in (EXAMPLES / folder).glob("*.toml")}
 """Examples of arches, frames, bridges of steel, and prestressed ones."""
@@ -75,6 +77,15 @@ def test_labels_are_all_different(presets):
     names = list(presets.preset_files())
     assert len({presets.label_of_preset(name) for name in names}) == len(names)
     assert presets.label_of_preset("i235_one_span") == "I-235 one span"
+
+
+def test_names_below_pictures_are_all_different_and_are_not_cut_off(presets):
+    import blf  # is there once bpy is
+
+    names = [presets.label_below_picture(name) for name in presets.preset_files()]
+    assert len(set(names)) == len(names)
+    blf.size(0, LETTERS_PT)
+    assert [name for name in names if blf.dimensions(0, name)[0] > BELOW_PICTURE_PX] == []
 
 
 def test_choosing_a_picture_loads_its_preset(extension, settings, presets):
