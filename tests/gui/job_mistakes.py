@@ -96,7 +96,9 @@ def record_after_playing_alone(person: Person) -> Steps:
     yield from person.click("bda.unregister_handler")
     yield 2.0
     yield from person.picture("recorded_after_playing_alone_ended")
-    person.expect_reports("frames played before are recorded", "Recording to", "Results are in")
+    person.expect_reports(
+        "frames played before are recorded", "Recording to", "not to be used for distances", "Results are in"
+    )
     log = rows(person.folder / "used" / "force_log.csv")
     frames = [int(row["frame"]) for row in log]
     person.expect("they are recorded from the first to the last", sorted(set(frames)), list(range(2, frames[-1] + 1)))

@@ -121,7 +121,8 @@ def stop_a_run_beside(person: Person, panels: Panels) -> Steps:
     folder, runs = person.folder / "beside", module("ui.recording.ui").runs_beside
     person.scene.bda.output_directory = str(folder)
     person.scene.bda.scenario.bridge.deck.thickness_m += 0.1
-    person.scene.bda.scenario.time.duration_s = 60.0
+    time = person.scene.bda.scenario.time
+    time.duration_s, time.stop_at_rest = 60.0, False
     yield from panels.show_only("Run")
     yield from person.click("bda.run_beside")
     yield from person.wait_for("it runs", lambda: bool(runs.run and runs.run.state.frames), 240.0)

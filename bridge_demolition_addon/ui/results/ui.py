@@ -50,11 +50,7 @@ class BDA_PT_results(SidebarPanel, bpy.types.Panel):
             draw_sentence(layout, context, run.explained_peak, icon="INFO")
         self._draw_largest(translated("Largest throw"), run.largest_throw)
         if run.bearings:
-            grid = layout.column(align=True)
-            for cells in run.bearings:
-                line = grid.row(align=True)
-                for text in cells:
-                    line.label(text=text, translate=False)
+            _draw_bearings(layout.column(align=True), context, run.bearings)
             draw_of_one_cut(layout, context)
         self._draw_in_view(context)
         layout.operator("bda.look_at_bridge", icon="LOOP_BACK")
@@ -83,6 +79,15 @@ class BDA_PT_results(SidebarPanel, bpy.types.Panel):
         where = translated("{}, frame {}").format(largest.body, largest.frame)
         go = column.operator("bda.go_to_body", text=where, icon="VIEWZOOM", translate=False)
         go.body, go.frame = largest.body, largest.frame
+
+
+def _draw_bearings(layout: bpy.types.UILayout, context: bpy.types.Context, rows: tuple[tuple[str, ...], ...]) -> None:
+    """Draw the table of bearings; names, and what happened, have lines of their own: six columns are too narrow."""
+    for name, *forces, happened in rows:
+        draw_sentence(layout, context, ", ".join(filter(None, (name, happened))), icon="NONE")
+        line = layout.row(align=True)
+        for text in forces:
+            line.label(text=text, translate=False)
 
 
 class BDA_PT_report(SidebarPanel, bpy.types.Panel):

@@ -173,7 +173,9 @@ def change_of(group: bpy.types.PropertyGroup, table_class: type[Table], item: Fi
     now, then = _value(group, item), kept.get(item.name)
     if now == then or (is_written_out(item) and _listed(now, item) == _listed(then, item)):
         return None
-    built = translated("without") if then is None else translated("with {}").format(_value_text(item, then))
+    built = "" if then is None else _value_text(item, then)
+    if not isinstance(then, bool):  # which is built off, or on
+        built = translated("with {}").format(built) if built else translated("without")
     shown = translated("not given") if now is None else _value_text(item, now)
     return ChangedValue(key_name(table_class, item), shown, built)
 
@@ -311,6 +313,9 @@ def _listed(text: str | None, item: Field) -> Any:
 def _value_text(item: Field, value: Any) -> str:
     if isinstance(value, bool):
         return translated("on") if value else translated("off")
+    if isinstance(value, str) and is_written_out(item):
+        listed = _listed(value, item)
+        value = listed if isinstance(listed, list) and all(isinstance(part, int | float) for part in listed) else value
     if isinstance(value, list):
         text = ", ".join(map(_number, value))
     else:

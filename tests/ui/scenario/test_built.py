@@ -97,10 +97,14 @@ def test_a_value_says_what_it_was_built_with_in_its_unit(built, settings):
     settings.scenario.ball.mass_kg = 50000.0
     settings.scenario.fracture.shards = 2000
     settings.scenario.use_ball = True
+    settings.scenario.bridge.span_lengths_m = "[8.5]"
+    settings.scenario.shards.start_deactivated = False
     found = {change.key: (change.shown, change.built) for change in changes(settings)}
     assert found == {
         "ball.mass_kg": ("50 000 kg", f"with {read_scenario(SMALL).ball.mass_kg:,.0f} kg".replace(",", " ")),
         "fracture.shards": ("2 000", "with 30"),
+        "bridge.span_lengths_m": ("8.5 m", "with 8 m"),
+        "shards.start_deactivated": ("off", "on"),
     }
     settings.scenario.use_ball = False
     assert ("ball", "not used", "with it") in [(change.key, change.shown, change.built) for change in changes(settings)]
