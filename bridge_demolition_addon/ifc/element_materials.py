@@ -1,7 +1,5 @@
 """Materials of elements: the name and density in the IFC file, and its row in the table that users can change."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
