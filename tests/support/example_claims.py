@@ -119,9 +119,9 @@ CLAIMS: dict[str, dict[str, tuple[float, float]]] = {
     },
     "frame_leg_blasted": {  # over 20 seeds
         "moved_before_m": (0.0, 0.02),  # 0.004 to 0.005
-        "span_1_share_fallen_2_m": (0.5, 1.0),  # 0.73 to 1.00
+        "span_1_share_fallen_2_m": (0.5, 1.0),  # 0.74 to 1.00
         "largest_throw_m": (0.0, 15.0),  # 3.1 to 5.4
-        "made_share": (0.0, 0.03),  # 0.001 to 0.011
+        "made_share": (0.0, 0.03),  # 0.001 to 0.013
     },
     "composite_span_dropped": {  # over 20 seeds
         # It stands as a composite section until the first girder is severed: by statics it deflects by 0.026 m.
