@@ -20,6 +20,7 @@ FEATURES = {
     "cuts": ("severed members?", "drilled_charges"),
     "dead_loads": ("dead loads?|surfacing|parapets?", "scenario"),
     "equipment": ("excavators?|machines? on the deck", "stages"),
+    "fall_beds": ("fall beds?|cushions?", "ground"),
     "foundations": ("footings?|foundations?|soil springs?", "foundations"),
     "ground_motion": ("earthquakes?|ground motion", "ground_motion"),
     "jackhammers": ("jackhammers?", "sequences"),
@@ -38,7 +39,7 @@ FEATURES = {
 
 ELSEWHERE = {"bridge", "geometry", "ground", "fracture", "materials", "geometry_reinforcement", "connections"} | {
     "supports", "shards", "contacts", "blast", "loads", "recording", "pictures", "report", "zones", "exclusion",
-    "site", "neighbours", "vibration_laws", "time",
+    "site", "neighbours", "vibration_laws", "time", "machines", "programme",
 }  # fmt: skip
 """Tables that no page would call left out."""
 
