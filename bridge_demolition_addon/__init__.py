@@ -177,8 +177,8 @@ def write_report(
     """Write the report of a run, study, search, optimisation or stages from its folder, and return the files.
 
     The first file is the page. Several folders of runs are compared, in the folder `output`. By default the report goes
-    beside the results. `language` is ``en``, ``de``, ``es``, ``fr`` or ``zh_hans``, and `units` ``metric`` or
-    ``imperial``; without them those that the scenario asks for count, else English and metric.
+    into the folder of the results. `language` is ``en``, ``de``, ``es``, ``fr`` or ``zh_hans``, and `units` ``metric``
+    or ``imperial``; without them those that the scenario asks for count, else English and metric.
 
     Examples
     --------

@@ -7,7 +7,7 @@ from contextlib import contextmanager
 
 
 class DemolitionError(Exception):
-    """Base of all errors of this project; its text is a sentence a user can act on."""
+    """Base class of this project's errors; its text is a sentence a user can act on."""
 
 
 class ScenarioError(DemolitionError):
@@ -29,7 +29,7 @@ class ScenarioError(DemolitionError):
 
 
 class Faults:
-    """The faults of parts that are checked one after the other, so that the user hears of all of them at once."""
+    """The faults of parts that are checked one after the other, so that the user hears them together."""
 
     def __init__(self) -> None:
         self.found: list[str] = []

@@ -271,7 +271,7 @@ CHARTS: dict[str, Callable[[ChartSettings], Figure]] = {
 def write_charts(
     folder: Path, settings: ChartSettings, drawn: Callable[[int, int], None] = lambda *_: None
 ) -> list[Path]:
-    """Draw all charts into a folder, made if new, and return their paths; `drawn` gets their number so far, of all."""
+    """Draw all charts into a folder, made if new, and return their paths; `drawn` gets the number so far and in all."""
     paths = []
     try:
         folder.mkdir(parents=True, exist_ok=True)

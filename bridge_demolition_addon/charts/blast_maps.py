@@ -73,14 +73,14 @@ def overpressure_map(
 
 
 def name_neighbour(axes: Axes, neighbour: Neighbour, *, to_the_left: bool) -> None:
-    """Write a neighbour's name beside it, towards the middle of the map, over several lines where it is long."""
+    """Write a neighbour's name next to it, towards the middle of the map, over several lines where it is long."""
     name = fill(plain(neighbour.name), _NAME_LETTERS)
     offset, side = ((-4, 4), "right") if to_the_left else ((4, 4), "left")
     axes.annotate(name, neighbour.position_m[:2], offset, textcoords="offset points", ha=side, fontsize=7)
 
 
 def neighbour_pressures(figure: FigureBase, loads: Sequence[tuple[str, PlaceLoads]]) -> None:
-    """Overpressure of all charges together at neighbours, over time."""
+    """Overpressure of the charges together at neighbours, over time."""
     axes = figure.add_subplot()
     for number, (name, load) in enumerate(loads):
         axes.plot(1e3 * load.times_s, load.pressures_pa / 1e3, **line_style(number, 1.2), label=plain(name))

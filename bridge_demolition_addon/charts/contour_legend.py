@@ -1,4 +1,4 @@
-"""Colour bar of the contours, beside a rendered picture."""
+"""Colour bar of the contours at the edge of a rendered picture."""
 
 from __future__ import annotations
 

@@ -46,10 +46,10 @@ _DOTS_OF_FEW, _FEW = 9.0, 300
 def reach_distribution(
     figure: FigureBase, reaches_m: np.ndarray, limit: tuple[float, str] | None, quantile: float
 ) -> None:
-    """Draw the debris distances (n,) of all runs, and which share of the runs stays within a distance.
+    """Draw the runs' debris distances (n,), and which share of the runs stays within a distance.
 
     Infinity is a run that did not finish, beyond the right edge. The limit is in metres and as text; the quantile is
-    the share of all runs that it is for.
+    its share of the runs.
     """
     upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(2, 3))
     finite = np.sort(reaches_m[np.isfinite(reaches_m)])
@@ -77,7 +77,7 @@ def reach_distribution(
 
 
 def limit_over_runs(figure: FigureBase, reaches_m: np.ndarray, runs: np.ndarray, limits_m: np.ndarray) -> None:
-    """Draw how the limit (m,) after so many of the runs (m,) settles, with their largest distance and their median."""
+    """Draw how the limit (m,) settles with the number of runs (m,), with their largest distance and their median."""
     axes = figure.add_subplot()
     counts = np.arange(1, len(reaches_m) + 1)
     shown = np.unique(np.rint(np.linspace(1, len(reaches_m), min(len(reaches_m), _MOST_POINTS))).astype(int))
@@ -103,7 +103,7 @@ def limit_over_runs(figure: FigureBase, reaches_m: np.ndarray, runs: np.ndarray,
 
 @dataclass(frozen=True, eq=False, slots=True)
 class InputPanel:
-    """An input as one panel shows it: name with unit, values (n,) of all runs, rank correlation, None for texts."""
+    """An input as one panel shows it: name with unit, the runs' values (n,), rank correlation, None for texts."""
 
     name: str
     values: np.ndarray
@@ -111,7 +111,7 @@ class InputPanel:
 
 
 def output_against_inputs(figure: FigureBase, label: str, values: np.ndarray, panels: Sequence[InputPanel]) -> None:
-    """Draw an output of all runs (n,) against each input, in a panel each."""
+    """Draw an output (n,), one value a run, against each input, in a panel each."""
     rows = math.ceil(len(panels) / PANELS_ABREAST)
     grid = figure.subplots(rows, PANELS_ABREAST, squeeze=False, sharey=True)
     size = _DOTS_OF_FEW if len(values) <= _FEW else _DOTS_OF_FEW * _FEW / len(values)
@@ -129,7 +129,7 @@ def output_against_inputs(figure: FigureBase, label: str, values: np.ndarray, pa
 
 
 def output_panels_height_mm(panels: int) -> float:
-    """Return the height that suits so many panels."""
+    """Return the height that suits a number of panels."""
     return PANEL_MM * math.ceil(panels / PANELS_ABREAST)
 
 
@@ -149,12 +149,12 @@ def correlation_map(
 
 
 def correlation_map_height_mm(inputs: int) -> float:
-    """Return the height that suits so many inputs."""
+    """Return the height that suits a number of inputs."""
     return 35.0 + 6.0 * inputs
 
 
 def _places(axes: Axes, values: np.ndarray) -> np.ndarray:
-    """Return where values stand on the axis: texts one beside the other."""
+    """Return where values stand on the axis: texts side by side."""
     if values.dtype != object:
         return values
     names = sorted({str(value) for value in values})
@@ -229,7 +229,7 @@ def _dots(axes: Axes, values: np.ndarray, height: float, label: str, marker: str
 
 
 def tradeoff(figure: FigureBase, best: Best) -> None:
-    """Draw charge and debris distance of all candidates of an optimisation."""
+    """Draw charge and debris distance of an optimisation's candidates."""
     settings, tried = best.optimisation.settings, best.tried
     axes = figure.subplots()
     points = np.array([(candidate.charge_kg, candidate.reach_m) for candidate in tried])
@@ -290,7 +290,7 @@ def study_plan(
 
 
 def _corners(areas: Sequence[CrossSection], zones: Sequence[Zone]) -> tuple[np.ndarray, np.ndarray]:
-    """Return the lowest and the highest x and y of all that is drawn, neighbours apart."""
+    """Return the lowest and the highest x and y drawn, neighbours apart."""
     corners = [ring for area in areas for ring in outlines(area)] + [np.array(zone.corners_m) for zone in zones]
     together = np.concatenate(corners)
     return together.min(axis=0), together.max(axis=0)

@@ -96,7 +96,7 @@ def _largest_loads(results: Results) -> tuple[np.ndarray, np.ndarray]:
 def breaking_history(
     figure: FigureBase, times_s: np.ndarray, kinds: Sequence[BreakingByKind], impact_s: float | None
 ) -> None:
-    """Draw which share of the connections of each kind has cracked or is torn, over time, and which of all is torn."""
+    """Draw over time which share of each kind of connections has cracked or is torn, and the torn share in all."""
     axes = _time_axes(figure, Text("connections cracked or torn (%)"), times_s)
     for number, kind in enumerate(kinds[:_MOST_KINDS]):
         label = plain(Text("{} ({} of {})", kind.kind, kind.broken[-1], kind.count))
@@ -230,7 +230,7 @@ class TimeAxis:
         return f"{self.left:.6f} {self.right:.6f} {self.begin_s:.6f} {self.end_s:.6f}"
 
     def time_at(self, share: float) -> float | None:
-        """Return the time, s, at a share of the picture's width; None beside the axis."""
+        """Return the time, s, at a share of the picture's width; None off the axis."""
         if not self.left <= share <= self.right:
             return None
         return self.begin_s + (share - self.left) / (self.right - self.left) * (self.end_s - self.begin_s)

@@ -1,4 +1,4 @@
-"""The pile of debris: a section through it, and a survey of it beside the forecast of a run."""
+"""The pile of debris: a section through it, and a survey compared with the forecast of a run."""
 
 from __future__ import annotations
 

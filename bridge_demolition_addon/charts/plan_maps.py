@@ -183,7 +183,7 @@ def exclusion_map(
 
 
 def debris_maps(figure: FigureBase, runs: Sequence[tuple[str, Debris]]) -> None:
-    """Draw the footprints of the debris of several runs beside each other, at one scale, each with its run's name."""
+    """Draw the footprints of the debris of several runs side by side, at one scale, each with its run's name."""
     low, high = _bounds_of(runs)
     rows = math.ceil(len(runs) / _MAPS_ABREAST)
     panels = figure.subplots(rows, min(len(runs), _MAPS_ABREAST), squeeze=False)
@@ -217,7 +217,7 @@ def debris_maps_height_mm(runs: Sequence[tuple[str, Debris]]) -> float:
 
 
 def _bounds_of(runs: Sequence[tuple[str, Debris]]) -> tuple[np.ndarray, np.ndarray]:
-    """Return the lowest and the highest x and y of all debris and bridges, with some room around them."""
+    """Return the lowest and the highest x and y of debris and bridges, with some room around them."""
     areas = [area for _, debris in runs for area in (debris.area, debris.outline) if not area.is_empty()]
     bounds = np.array([area.bounds() for area in areas])
     low, high = bounds[:, :2].min(axis=0), bounds[:, 2:].max(axis=0)

@@ -1,4 +1,4 @@
-"""``bda charge``: the smallest charge for a wanted load, the effects of a charge around it, or those of drill holes."""
+"""``bda charge``: the smallest charge for a wanted load, the effects of a charge around it, or of drill holes."""
 
 import argparse
 from collections.abc import Iterator

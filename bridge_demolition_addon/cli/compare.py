@@ -1,4 +1,4 @@
-"""``bda compare``: a survey of the debris beside the forecast of a run."""
+"""``bda compare``: compare a survey of the debris with the forecast of a run."""
 
 import argparse
 import math

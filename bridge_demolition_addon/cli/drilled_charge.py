@@ -37,7 +37,7 @@ class _Size:
 
 
 def add_to(parser: argparse.ArgumentParser, task: argparse._MutuallyExclusiveGroup) -> None:
-    """Add the task and its options to those of ``bda charge``."""
+    """Add the task and its options to ``bda charge``."""
     task.add_argument(
         "--zone-m",
         nargs=3,

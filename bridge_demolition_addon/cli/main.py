@@ -33,7 +33,7 @@ SIGNALLED = 128
 
 
 class Command(NamedTuple):
-    """A command: its module in this folder, and what it does, as the list of all says."""
+    """A command: its module in this folder, and what it does, as the list of commands says."""
 
     module: str
     does: str
@@ -78,7 +78,7 @@ class Parser(argparse.ArgumentParser):
 
     @property
     def options(self) -> list[str]:
-        """Names of all options, also of those in groups: a wrong one may be like one of them."""
+        """Names of the options, groups included: a wrong one may be like one of them."""
         return [name for name in self._option_string_actions if name.startswith("--")]
 
     def error(self, message: str) -> NoReturn:
@@ -87,7 +87,7 @@ class Parser(argparse.ArgumentParser):
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run a command, by default that of the arguments of Python, and return the exit status.
+    """Run a command, by default the one in Python's arguments, and return the exit status.
 
     0 done, 1 the run failed, 2 the input is wrong, 130 interrupted; 143 where the system asked for the end, 129 where
     the terminal was closed.
@@ -176,7 +176,7 @@ def _unknown_arguments(unknown: Sequence[str], known: Sequence[str]) -> str:
 
 
 def _parser(argv: Sequence[str]) -> tuple[Parser, list[Parser]]:
-    """Return the parser of the command that is called, or of all, of which a list of commands needs none."""
+    """Return the parser of the called command, or of every command; a list of commands needs none."""
     parser = Parser(prog="bda", description="Plan the demolition of a bridge.", allow_abbrev=False)
     parser.add_argument("--version", action="version", version=f"bda {VERSION}", help="print the version")
     if argv[:1] == ["--version"]:

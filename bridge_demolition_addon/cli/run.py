@@ -84,7 +84,7 @@ def run(arguments: argparse.Namespace) -> None:
 
 
 def _scenarios(paths: Sequence[str]) -> list[Scenario]:
-    """Read scenarios, or raise the faults of all of them."""
+    """Read scenarios, or raise all their faults."""
     scenarios, faults = [], Faults()
     for path in paths:
         with faults.noted():

@@ -79,7 +79,7 @@ def execute(arguments: argparse.Namespace) -> None:
 
 
 def study_facts(study: Study, output: Path | None, jobs: int) -> Iterator[str]:
-    """Yield what ``--check`` prints: some runs of a study, and how long so many jobs take for all."""
+    """Yield what ``--check`` prints: some runs of a study, and how long the study takes with this number of jobs."""
     settings = study.settings
     yield study.scenario.title
     yield ""

@@ -29,7 +29,7 @@ _CROSS_M = 0.5
 
 
 def bridge_edges(bridge: Bridge) -> np.ndarray:
-    """Return the edges of all members as lines (2 k, 3) float, m; neither densities nor merging matter for them."""
+    """Return the members' edges as lines (2 k, 3) float, m; neither densities nor merging matter for them."""
     members = (*superstructure(bridge), *substructure(bridge))
     return np.concatenate([sharp_edges(member.solid) for member in members])
 
@@ -159,7 +159,7 @@ def _in_own_axes(layer: BarLayer, member: Member) -> Iterator[np.ndarray]:
 
 
 def _ends_at(cuts: np.ndarray, along: int, beside: int, position: float) -> list[float]:
-    """Return where a line along an axis, at a position beside it, crosses the sides (c, 2, 3) of a plane section."""
+    """Return where a line along an axis, at a position off it, crosses the sides (c, 2, 3) of a plane section."""
     first, second = cuts[:, 0], cuts[:, 1]
     before, after = first[:, beside] - position, second[:, beside] - position
     crossed = (before > 0.0) != (after > 0.0)

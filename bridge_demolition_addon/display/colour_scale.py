@@ -1,6 +1,6 @@
 """Colour scale: which colour stands for a share between the lowest and the highest value, and its ticks.
 
-Colours are those of a screen (sRGB); `linear` turns them into the linear light that a renderer calculates with.
+Colours are for a screen (sRGB); `linear` turns them into the linear light that a renderer calculates with.
 """
 
 from __future__ import annotations
@@ -17,9 +17,9 @@ UNKNOWN = (0.5, 0.5, 0.5)
 class ColourMap(StrEnum):
     """The maps, by their names.
 
-    That of 2019 runs from blue over green to red, straight from one to the next. The others are matplotlib's, and even
-    to the eye: equal steps in value look equally large, also without colour. Cividis is made for eyes that take red for
-    green.
+    The map of 2019 runs from blue over green to red, straight from one to the next. The others are matplotlib's, and
+    even to the eye: equal steps in value look equally large, also without colour. Cividis is made for eyes that take
+    red for green.
 
     References
     ----------

@@ -57,7 +57,7 @@ class ContourSettings:
             raise ContourError(f"range of contours: a logarithmic one has to begin above 0, not at {self.low:g}")
 
     def scale(self, low: float, high: float) -> ContourScale:
-        """Return the fixed range, or else that of values from low to high."""
+        """Return the fixed range, or else the range of the values from low to high."""
         if self.range_kind == RangeKind.FIXED:
             return ContourScale(self.low, self.high, self.logarithmic)
         if not self.logarithmic:
@@ -198,7 +198,7 @@ class ContourSeries:
         return self.recorded[0]
 
     def magnified(self, row: int, magnification: float) -> Frame:
-        """Return the frame of a row with its bodies displaced and turned so many times as much as they are."""
+        """Return the frame of a row with its bodies displaced and turned by the magnification."""
         frame, first = self.recorded[row], self._first
         if magnification == 1.0:
             return frame
@@ -225,10 +225,10 @@ class ContourSeries:
     def extent(
         self, row: int | None, quantity: ContourQuantity, *, peak: bool = False, percentile: float = 100.0
     ) -> tuple[float, float]:
-        """Return the lowest and highest value, N, Pa or m, of a row, or of all rows for None; 0 is always among them.
+        """Return the lowest and highest value, N, Pa or m, of a row or, for None, of every row; 0 is always among them.
 
-        As in 2019 a range has 0 in it, so that what is free of load has the colour of that. Below 100 the percentile is
-        that of the values above 0, and of those below it.
+        As in 2019 a range has 0 in it, so that what is free of load has the colour of that. Below 100 the percentile
+        counts the values above 0 and the values below 0 apart.
         """
         self._fill(quantity, peak)
         if percentile < 100.0:
@@ -301,7 +301,7 @@ class StageContours:
 
 
 def used_by_shard(model: Model, used: np.ndarray) -> np.ndarray:
-    """Return the largest utilisation (n,) of each shard's connections, of that of all connections (m,)."""
+    """Return the largest utilisation (n,) of each shard's connections, from the connections' (m,)."""
     largest = np.full(len(model.shards), np.nan)
     for shards in model.connections.pairs.T:
         there = shards >= 0  # the ground is no shard

@@ -1,4 +1,4 @@
-"""Crawlers beside a bridge: the crane of a ball, the excavator of a jackhammer, where they cut nothing; for looks."""
+"""Crawlers next to a bridge: the crane of a ball, the excavator of a jackhammer, where they cut nothing; for looks."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class StandingRoom:
     Attributes
     ----------
     built_m : (n, 2, 3) float
-        Boxes around the bodies of the bridge as they are built, and around what is drawn beside it.
+        Boxes around the bodies of the bridge as they are built, and around what is drawn with it.
     reached_m : (k, 2, 3) float
         The same, and boxes around these bodies wherever they come in the run.
     ground : RecordedGround
@@ -47,7 +47,7 @@ class StandingRoom:
 
     @classmethod
     def of_run(cls, results: Results, drawn: Sequence[DrawnPart] = ()) -> Self:
-        """Return the room of a run, beside what is drawn with it."""
+        """Return the room that a run leaves, with what is drawn in it."""
         of_bridge = np.flatnonzero(~np.isin(results.inventory.body_kinds, _BESIDE))
         rows = np.unique(np.linspace(0, len(results.frames) - 1, _ROOM_ROWS).astype(int))
         by_row = [boxes_of_bodies(results, row)[of_bridge] for row in rows.tolist()]

@@ -78,7 +78,7 @@ def are_steel(inventory: Inventory) -> np.ndarray:
 
 
 def touchdowns(results: Results, most: int = MOST_TOUCHDOWNS) -> list[Puff]:
-    """Return a cloud where each of the bodies with the largest momentum comes to the ground, at most so many."""
+    """Return a cloud where each of the bodies with the largest momentum comes to the ground, up to a number of them."""
     frames, inventory = results.frames, results.inventory
     if len(frames) < 2:
         return []

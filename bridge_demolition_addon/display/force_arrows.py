@@ -11,12 +11,12 @@ _HEAD_SLOPE = 0.35
 
 
 def body_forces(frame: Frame) -> tuple[np.ndarray, np.ndarray]:
-    """Return centres (n, 3) in m, and resultants of connections and contacts (n, 3) in N, of all bodies."""
+    """Return the bodies' centres (n, 3) in m, and resultants of connections and contacts (n, 3) in N."""
     return frame.positions_m, frame.loads.body_forces_n
 
 
 def contact_forces(frame: Frame, frame_s: float) -> tuple[np.ndarray, np.ndarray]:
-    """Return centres (n, 3) in m, and mean forces of all contacts (n, 3) in N, over a frame of `frame_s`."""
+    """Return the contacts' centres (n, 3) in m, and mean forces (n, 3) in N, over a frame of `frame_s`."""
     impulses = frame.loads.body_contact_impulses_ns
     return frame.positions_m, impulses / frame_s if frame_s > 0.0 else np.zeros_like(impulses)
 

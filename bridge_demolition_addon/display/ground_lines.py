@@ -45,7 +45,7 @@ def zone_lines(zone: Zone) -> np.ndarray:
 
 
 def draped(lines_m: np.ndarray, ground: RecordedGround) -> np.ndarray:
-    """Return lines (2 k, 3) float, m, of which those just above height 0 follow the ground, in parts of 2 m at most."""
+    """Return lines (2 k, 3) float, m, with lines just above height 0 laid along the ground, in parts of 2 m at most."""
     if ground.is_flat:
         return lines_m
     sides = lines_m.reshape(-1, 2, 3)
@@ -68,13 +68,13 @@ def ring_of(corners_m: np.ndarray, height_m: float) -> np.ndarray:
 
 
 def distance_rings(plan: CrossSection, spacing_m: float, number: int) -> list[tuple[float, np.ndarray]]:
-    """Return distances from a plan, m, and the lines (2 k, 3) float of all positions that are so far away."""
+    """Return distances from a plan, m, and the lines (2 k, 3) float of the positions at these distances."""
     distances = [spacing_m * (count + 1) for count in range(number)]
     return [(distance, outline_lines(widened_around(plan, distance))) for distance in distances]
 
 
 def planned_zone(plan: CrossSection, settings: Exclusion) -> ExclusionZone:
-    """Return the exclusion zone as it is planned before a run, of which the debris is not known yet."""
+    """Return the exclusion zone as it is planned before a run, while its debris is unknown."""
     drop = widened(plan, settings.designed_drop_m)
     return ExclusionZone(plan, drop, CrossSection(), widened(drop, settings.buffer_m))
 

@@ -92,7 +92,7 @@ def history_curve(history: ForceHistory, row: int, columns: int) -> HistoryCurve
 
 
 def _told_apart(shares: np.ndarray, forces_n: np.ndarray, columns: int) -> np.ndarray:
-    """Return rows: the first, the last, and that of the largest force in each column."""
+    """Return rows: the first, the last, and the row with the largest force in each column."""
     if len(shares) <= columns:
         return np.arange(len(shares))
     numbers = np.minimum((shares * columns).astype(int), columns - 1)
@@ -123,7 +123,7 @@ class FrameFigures:
     connections : ConnectionCounts
         How many have cracked, yielded or torn.
     debris_kg, bridge_kg : float
-        Mass of the shards that have come down by then, and of all shards. Removed ones are left out of both.
+        Mass of the shards that have come down by then, and of every shard. Removed ones are left out of both.
     area
         What debris covers in plan.
     farthest

@@ -19,7 +19,7 @@ _NEVER_SHOWN = "ground"
 
 
 class MovedSurfaces:
-    """Triangles of all bodies but the ground.
+    """Triangles of every body but the ground.
 
     Parameters
     ----------

@@ -38,13 +38,13 @@ class PreviewOutcome:
     fallen_kg, area_m2, farthest_m : float
         Mass of debris, area that it covers in plan, and its largest distance from the bridge's plan.
     time_s, duration_s : float
-        Simulated time so far, and that of the whole scenario.
+        Simulated time so far, and the scenario's duration.
     is_elastic : bool
         Whether connections are elastic, so that the preview takes longer steps than the run.
     debris_lines_m : (2 k, 3) float
         Outline of the debris on the ground, around what lies less than `GAP_M` apart.
     fallen_lines_m, standing_lines_m : (2 k, 3) float
-        Edges of the shards that are debris, and of all others, where they are.
+        Edges of the debris, and of the other shards, where they are.
     """
 
     shards: int

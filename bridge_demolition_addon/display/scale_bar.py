@@ -1,4 +1,4 @@
-"""The scale bar of a picture: a staff on the ground beside the bridge, in stripes of known length."""
+"""The scale bar of a picture: a staff on the ground next to the bridge, in stripes of known length."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class ScaleBar:
 
     @property
     def text(self) -> str:
-        """What stands beside it."""
+        """Its label."""
         return f"{self.length_m:g} m"
 
     def parts(self) -> list[DrawnPart]:

@@ -1,4 +1,4 @@
-"""A section through a pile in a view: outlines, filled areas, and a scale of heights beside them, in the world."""
+"""A section through a pile in a view: outlines, filled areas, and a scale of heights at their side, in the world."""
 
 from __future__ import annotations
 

@@ -139,7 +139,7 @@ def arctangent(y: ArrayLike, x: ArrayLike = 1.0) -> FloatArray:
 
 
 def _exponential(x: FloatArray, rest: FloatArray | float) -> FloatArray:
-    """e to the power of the sum of x and a rest that is small beside it."""
+    """e to the power of the sum of x and a rest that is small against it."""
     limited = np.clip(x, -750.0, 710.0)
     doublings = np.rint(limited * _PER_LN2)
     doublings = np.where(np.isnan(doublings), 0.0, doublings)

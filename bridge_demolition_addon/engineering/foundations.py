@@ -38,7 +38,7 @@ class Footings(SpringsOfConnections):
     """All footings of a structure of n bodies, which has connections between bodies `first` and `second` (m,).
 
     Each footing's connection, of `rows` (f,), has the ground as one body. Positions (3, n) and rotations (3, 3, n) are
-    those of the bridge as it was built, `moves` (n,) is False for bodies that never move.
+    of the bridge as built, `moves` (n,) is False for bodies that never move.
     """
 
     def __init__(

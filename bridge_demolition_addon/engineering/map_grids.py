@@ -1,4 +1,4 @@
-"""Grids of maps: positions on earth of transverse Mercator coordinates, such as those of UTM."""
+"""Grids of maps: positions on earth of transverse Mercator coordinates, such as UTM."""
 
 from __future__ import annotations
 
@@ -9,9 +9,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class TransverseMercator:
-    """A transverse Mercator projection of an ellipsoid, that of GRS 1980 unless given; WGS 84 differs from it by 0.1
-    mm.
-    """
+    """A transverse Mercator projection of an ellipsoid, GRS 1980 unless given; WGS 84 differs from it by 0.1 mm."""
 
     central_meridian_deg: float
     latitude_of_origin_deg: float = 0.0

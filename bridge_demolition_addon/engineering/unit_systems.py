@@ -158,7 +158,7 @@ class Conversion:
         return f"{rounded:e}" if "e" in text.lower() else f"{rounded:f}"
 
     def last_digit(self, text: str) -> int:
-        """Return the power of ten of the last digit that a number has in this unit, by that of the metric number."""
+        """Return the power of ten of the last digit that a number has in this unit, by the metric number's."""
         exponent = Decimal(text).as_tuple().exponent
         assert isinstance(exponent, int)  # no infinity is written
         return (Decimal(1).scaleb(exponent) * self.metric_size / self.own_size * _COARSER).adjusted()

@@ -62,14 +62,14 @@ def name_and_unit(name: str) -> tuple[str, str]:
 
 
 def with_digits(value: float, decimals: int, significant: int = SIGNIFICANT_DIGITS) -> str:
-    """Return a number with so many decimals, or with more where it would have too few significant digits."""
+    """Return a number with `decimals` decimals, or with more where it would have too few significant digits."""
     if value == 0.0 or not math.isfinite(value):
         return f"{value:.{decimals}f}"
     return f"{value:.{max(decimals, significant - 1 - math.floor(math.log10(abs(value))))}f}"
 
 
 def kilonewtons(force_n: float) -> str:
-    """Return a force in kN with three digits: those of impacts hang on the sub-step, and more would say nothing."""
+    """Return a force in kN with three digits: impacts hang on the sub-step, and more digits would say nothing."""
     return with_digits(float(f"{force_n / 1e3:.{SIGNIFICANT_DIGITS}g}"), 0)
 
 
@@ -84,14 +84,14 @@ def rounded_down(value: float, step: str) -> str:
 
 
 def mass_text(mass_kg: float, decimals: int = 3, *, width: int = 0) -> Quantity:
-    """Return a mass in t with so many decimals, below 1 t in kg; the number takes up a width at least."""
+    """Return a mass in t with `decimals` decimals, below 1 t in kg; the number takes up a width at least."""
     if 0.0 < abs(mass_kg) < _KG_PER_T:
         return Quantity(with_digits(mass_kg, 0), "kg", f">{width}")
     return Quantity(with_digits(mass_kg / _KG_PER_T, decimals), "t", f">{width}")
 
 
 def volume_text(volume_m3: float, decimals: int = 3, *, width: int = 0) -> Quantity:
-    """Return a volume in m³ with so many decimals; the number takes up a width at least."""
+    """Return a volume in m³ with `decimals` decimals; the number takes up a width at least."""
     return Quantity(with_digits(volume_m3, decimals), "m³", f">{width}")
 
 

@@ -1,4 +1,4 @@
-"""A run as series for ParaView: surfaces of all bodies, their centres, their connections and their contacts."""
+"""A run as series for ParaView: the bodies' surfaces, their centres, their connections and their contacts."""
 
 from __future__ import annotations
 
@@ -158,7 +158,7 @@ class _Quantities:
 
 
 class _Surfaces:
-    """Triangles of all bodies; what is known of a body is known of each of its triangles."""
+    """The bodies' triangles; what is known of a body is known of each of its triangles."""
 
     def __init__(self, results: Results):
         meshes = body_meshes(results.inventory)

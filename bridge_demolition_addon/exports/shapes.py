@@ -72,7 +72,7 @@ class ConnectionPositions:
 
 
 def frame_rate(results: Results) -> float:
-    """Return frames per second, by the median length of a frame; those of a film for a run of one frame."""
+    """Return frames per second, by the median length of a frame; a film's rate for a run of one frame."""
     lengths_s = np.diff(results.frames.time_s)
     return 1.0 / float(np.median(lengths_s)) if len(lengths_s) else _FRAMES_PER_SECOND
 

@@ -227,7 +227,7 @@ def _along_axes(name: str, vectors: np.ndarray, unit: str) -> dict[str, np.ndarr
 
 
 def _files_tables(folder: Path) -> Iterator[_Table]:
-    """Give the tables that are there as CSV: logs, and below their own names those of a report."""
+    """Give the tables that are there as CSV: logs, and a report's tables below their own names."""
     logs = [folder / name for name in (FORCE_LOG, DEBRIS_LOG, BREAKING_LOG, EXPLOSION_LOG, BEARING_LOG)]
     reported = sorted((folder / TABLE_FOLDER).glob("*.csv"))
     for path in [*logs, *reported]:

@@ -57,8 +57,8 @@ def smallest_charge_for_impulse(
 ) -> float:
     """Return the smallest charge that gives an incident impulse per area at a stand-off, kg of TNT.
 
-    The impulse of W kg is that of 1 kg at the same Z, times W^(1/3) = R/Z. So Z is where (impulse of 1 kg) / Z is the
-    wanted impulse over R.
+    The impulse of W kg is the impulse of 1 kg at the same Z, times W^(1/3) = R/Z. So Z is where (impulse of 1 kg) / Z
+    is the wanted impulse over R.
     """
     _check(impulse_pa_s, "impulse", "Pa·s")
     _check(stand_off_m, "stand-off", "m")

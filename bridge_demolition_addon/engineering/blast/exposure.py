@@ -2,8 +2,8 @@
 
 Areas change as the bodies turn. For the shares, rays go from every charge to every body: to its centre of mass, and to
 the points half-way from there to the vertices of its hull. The convex hull of another body stops a ray that passes
-through it; the visible share is that of the other rays. A wave also bends round edges, which is not modelled: behind
-anything narrow the load is more than this share. A body that contains the charge stops nothing: the charge breaks it.
+through it; the other rays make the visible share. A wave also bends round edges, which is not modelled: behind anything
+narrow the load is more than this share. A body that contains the charge stops nothing: the charge breaks it.
 """
 
 from itertools import pairwise
@@ -61,7 +61,7 @@ def lines_of_blast(sources: FloatArray, centres: FloatArray) -> tuple[FloatArray
 def projected_areas(hulls: ConvexHulls, rotations: FloatArray, directions: FloatArray) -> FloatArray:
     """Return the bodies' areas (n, c), m², projected along directions (n, c, 3): ½ Σ |n̂ · n̂ᵢ| Sᵢ over the faces.
 
-    That is the report's equation 6. Rotations (n, 3, 3) are from the axes of each body to those of the world.
+    That is the report's equation 6. Rotations (n, 3, 3) turn body axes into world axes.
     """
     (bodies, charges), faces, most = directions.shape[:2], hulls.face_vectors.shape[1], hulls.most_faces
     areas = np.empty((bodies, charges))
@@ -80,7 +80,7 @@ def projected_areas(hulls: ConvexHulls, rotations: FloatArray, directions: Float
 def visible_shares(hulls: ConvexHulls, centres: FloatArray, rotations: FloatArray, sources: FloatArray) -> FloatArray:
     """Return the shares (n, c) of the bodies that charges at `sources` (c, 3) see: from 0, hidden, to 1, free.
 
-    Rotations (n, 3, 3) are from the axes of each body to those of the world, `centres` (n, 3) are centres of mass.
+    Rotations (n, 3, 3) turn body axes into world axes, `centres` (n, 3) are centres of mass.
     """
     owners, targets = _targets(hulls, centres, rotations)
     counts = np.bincount(owners, minlength=len(hulls))

@@ -28,7 +28,7 @@ from .wave import SOUND_SPEED_M_S, Burst, Wave
 
 
 class WaveQuantity(StrEnum):
-    """Quantity in the tables, by its name there; those of a `Wave` come first, in its order."""
+    """Quantity in the tables, by its name there; the fields of a `Wave` come first, in its order."""
 
     PEAK_OVERPRESSURE = "incident_overpressure"
     REFLECTED_OVERPRESSURE = "reflected_overpressure"

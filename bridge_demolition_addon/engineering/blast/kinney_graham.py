@@ -1,7 +1,7 @@
 """The blast wave of Kinney and Graham: closed formulas for a spherical burst of TNT, the report's equations 3 and 4.
 
 Kinney and Graham, *Explosive Shocks in Air* (2nd ed., 1985), chapter 6. Far away their pressure and impulse fall as
-1/Z, as those of a sound wave do, so that their range has no end.
+1/Z, like a sound wave's, so that their range has no end.
 """
 
 from functools import cache

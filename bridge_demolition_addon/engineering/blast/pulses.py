@@ -107,7 +107,7 @@ class Pulses:
         return whole_impulse(self.peaks_pa, self.durations_s, self.decays)
 
     def take(self, pairs: IntArray) -> "Pulses":
-        """Return the pulses (k,) of pairs (k,): c i + j is that of body i and charge j."""
+        """Return the pulses (k,) of pairs (k,): c i + j belongs to body i and charge j."""
         return Pulses(*(getattr(self, item.name).take(pairs) for item in fields(self)))
 
     def put(self, columns: IntArray, other: "Pulses") -> None:
@@ -182,7 +182,7 @@ def charges_as_fired(
     """Return the TNT (c,) that goes off as one with each of c charges, its own included, and its share of that (c,).
 
     Charges that touch each other as balls and detonate at one time make one wave, whose impulse is less than the sum of
-    two (Hopkinson 1915, Cranz 1926): each has its share of the pressure of all.
+    two (Hopkinson 1915, Cranz 1926): each has its share of the common pressure.
     """
     masses = checked(tnt_kg, "charge", "kg of TNT")
     radii_m = SMALLEST_SCALED_DISTANCE * cube_root(masses)

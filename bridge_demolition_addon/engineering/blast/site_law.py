@@ -1,10 +1,10 @@
 """The law of a site: how its ground carries vibration, by events that were measured there.
 
 v = K (R / √S)^-b is fitted to them as a straight line in logarithms, with R the distance and S the size of an event:
-the charge within a delay in kg, or the energy of a fall in kJ. The form is that of Nicholls, Johnson and Duvall, USBM
-Bulletin 656 (1971); line and band are those of the International Society of Explosives Engineers, Blasters' Handbook,
-18th edition (2011), chapter on vibration, with the limits of prediction of `statistics.line`. With energies above those
-that were measured, a root is on the safe side of the cube root of Zhou's formula.
+the charge within a delay in kg, or the energy of a fall in kJ. Form: Nicholls, Johnson and Duvall, USBM Bulletin 656
+(1971); line and band: International Society of Explosives Engineers, Blasters' Handbook, 18th edition (2011), chapter
+on vibration, with the limits of prediction of `statistics.line`. With energies above those that were measured, a root
+is on the safe side of the cube root of Zhou's formula.
 """
 
 from __future__ import annotations
@@ -67,7 +67,7 @@ class SiteLaw:
         return FittedLine(logs[0], -self.exponent, self.scatter, self.events, logs[1], self.spread)
 
     def velocity(self, distance_m: ArrayLike, size: ArrayLike) -> FloatArray:
-        """Return the peak particle velocity, m/s, that half of all events of a size stay below at a distance."""
+        """Return the peak particle velocity, m/s, that half of the events of a size stay below at a distance."""
         return exponential(self.line.at(_logs_of(distance_m, size)))
 
     def at_most(self, distance_m: ArrayLike, size: ArrayLike) -> FloatArray:
@@ -144,7 +144,7 @@ _MARGIN = 1.25
 def station_distances_m(scaled: Sequence[float], energy_kj: float) -> FloatArray:
     """Return distances (8,) from a weight that lands with an energy, evenly in ratio.
 
-    They have all scaled distances R / √E in m/√kJ between them, those of the demolition's neighbours.
+    They have all scaled distances R / √E in m/√kJ between them, the demolition's neighbours.
     """
     nearest, farthest = min(scaled) / _MARGIN, max(scaled) * _MARGIN
     between = nearest * power(farthest / nearest, np.linspace(0.0, 1.0, STATIONS))

@@ -1,8 +1,8 @@
 """Ground vibration from blasting, by square-root scaled distance: v = K (R / √Q)^(-β).
 
-The form is that of Nicholls, Johnson and Duvall, *Blasting Vibrations and Their Effects on Structures*, USBM Bulletin
-656 (1971). K and β are measured on site; those here are to begin with. They are for charges drilled into rock: charges
-in the columns of a bridge shake the ground less. The fall of the bridge, which often shakes it more, is not in them.
+Form: Nicholls, Johnson and Duvall, *Blasting Vibrations and Their Effects on Structures*, USBM Bulletin 656 (1971). K
+and β are measured on site; those here are to begin with. They are for charges drilled into rock: charges in the columns
+of a bridge shake the ground less. The fall of the bridge, which often shakes it more, is not in them.
 """
 
 from dataclasses import dataclass

@@ -52,7 +52,7 @@ class Burst(NamedChoice):
 class Wave:
     """A blast wave at some positions, arrays of one shape.
 
-    Incident pressure and impulse are those beside the wave's path, reflected ones those on a wall that it meets
+    Incident pressure and impulse act on a surface along the wave's path, reflected ones on a wall that it meets
     head-on.
     """
 

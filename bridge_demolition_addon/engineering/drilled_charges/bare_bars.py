@@ -3,7 +3,7 @@
 A bar is fixed in the concrete at both ends of the bared height and cannot move sideways there, so that Euler's length
 is half of that: P = π² E I / (0.5 l)². Ends that move sideways with the whole member would buckle at a quarter of it.
 
-Two forces in compression bound what bars resist. Curve c of EN 1993-1-1, that of solid round bars, is what they may be
+Two forces in compression bound what bars resist. Curve c of EN 1993-1-1, for solid round bars, is what they may be
 counted on for: it has them bowed by 1/200 to 1/150 of their length (table 5.1), and explosive does not leave them
 straighter. Bars without any bow resist the less of yield and Euler's load: 1.3 to 1.85 times as much over 20 to 50
 diameters. A run has these, so that what comes down in it comes down on the strongest of bars.

@@ -4,8 +4,8 @@ Groups of bars, each between a point on the body below and one on the body above
 these. They yield in tension, and rupture. In compression they yield or buckle, and then fold: they resist less the
 closer their ends have come for good, and as little while they are straightened again. Sideways they resist nothing.
 
-A sub-step is implicit, as of cracks. What groups have yielded or folded by follows after it, so that the largest forces
-in a sub-step are those of its beginning.
+A sub-step is implicit, as of cracks. What groups have yielded or folded by follows after it, so that forces in a
+sub-step are largest at its beginning.
 
 At rest, the ends of bars are taken for held sideways, as their buckling load takes them: a bridge that is not quite
 upright would tip over on bars without any stiffness sideways. There bars resist what they may be counted on for, and in
@@ -191,7 +191,7 @@ class Cages:
         return self._groups.holds
 
     def let_go(self, bodies: IntArray) -> None:
-        """Let go of all bars that end in some bodies (b,)."""
+        """Let go of the bars that end in some bodies (b,)."""
         gone = np.isin(self._groups.first, bodies) | np.isin(self._groups.second, bodies)
         self._groups.holds[gone] = False
 

@@ -66,7 +66,7 @@ class Fragments:
 
     @classmethod
     def joined(cls, parts: Sequence[Fragments]) -> Fragments:
-        """Return those of several zones as one."""
+        """Join the fragments of several zones."""
         return cls(
             np.concatenate([part.sizes_m for part in parts]),
             np.concatenate([part.positions_m for part in parts]),
@@ -82,7 +82,7 @@ class Fragments:
 
 @dataclass(frozen=True, slots=True)
 class Ranges:
-    """Distances on plan that parts of the fragments' mass stay within, and the largest of all, m."""
+    """Distances on plan that parts of the fragments' mass stay within, and the largest distance, m."""
 
     half_m: float
     most_m: float  # 99 %

@@ -71,7 +71,7 @@ class LandingShaft:
 
     @property
     def lean_m(self) -> float:
-        """How far its head may be beside the middle of its foot, and it stands; 0 where all of it is crushed."""
+        """How far its head may be off the middle of its foot while it stands; 0 where all of it is crushed."""
         return max(0.0, self.side_m / 2.0 - self.load_n / (2.0 * _LEFT_OF_STRENGTH * self.strength_pa * self.width_m))
 
     @property

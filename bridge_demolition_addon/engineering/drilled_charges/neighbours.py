@@ -47,7 +47,7 @@ def largest_mass_together_kg(
 def fires_together(times_s: ArrayLike, spreads_s: ArrayLike = 0.0, window_s: float = DELAY_WINDOW_S) -> BoolArray:
     """Return which charges (k, k) can fire within a window that begins as late as each of them can fire.
 
-    The fullest of all windows is among these. Times and spreads (k,) are those of `largest_mass_together_kg`.
+    The fullest window is among these. Times and spreads (k,) as in `largest_mass_together_kg`.
     """
     times, spreads = np.broadcast_arrays(np.asarray(times_s, float), np.asarray(spreads_s, float))
     first, last = times - spreads, times + spreads

@@ -88,8 +88,8 @@ class LeftOfConcrete:
 def breaking_range_kg_m3(element: DrilledElement, burden_m: float) -> tuple[float, float]:
     """Return the least and the largest specific charge of the table that break an element.
 
-    Only those of reinforced beams and columns depend on the burden: straight between the burdens of the table, and
-    that of the nearest beyond them.
+    Only for reinforced beams and columns it depends on the burden: linear between the burdens of the table, constant
+    beyond them.
     """
     if element in _BREAKING_KG_M3:
         return _BREAKING_KG_M3[element]
@@ -98,7 +98,7 @@ def breaking_range_kg_m3(element: DrilledElement, burden_m: float) -> tuple[floa
 
 
 def specific_charge_kg_m3(mass_kg: ArrayLike, volume_m3: ArrayLike, relative_strength: ArrayLike = 100.0) -> FloatArray:
-    """Return the specific charge of masses in volumes, as that of an explosive of relative weight strength 100."""
+    """Return the specific charge of masses in volumes, converted to an explosive of relative weight strength 100."""
     strength = np.asarray(relative_strength, float) / _REFERENCE_RWS
     specific: FloatArray = np.asarray(mass_kg, float) * strength / np.asarray(volume_m3, float)
     return specific

@@ -78,7 +78,7 @@ def _by_density(solid: Manifold, count: int, generator: np.random.Generator, den
 
 
 def _uniform(solid: Manifold, count: int, generator: np.random.Generator) -> FloatArray:
-    """Points (count, 3) in the solid, which is diced first, so that few of the points tried fall beside it."""
+    """Points (count, 3) in the solid, which is diced first, so that few of the points tried miss it."""
     # Halved so often at most, there are not many more dice than points.
     dice = _diced(solid, int(count).bit_length())
     counts = [count] if len(dice) == 1 else _shared_out(count, [part.volume() for part in dice], generator)

@@ -161,7 +161,7 @@ def _with_recursion(
     recursion: Recursion,
     stretch: FloatArray | None,
 ) -> Fracture:
-    """A fracture of which some shards are cut again; faces between their shards are where these touch."""
+    """A fracture with some shards cut again; faces between their shards are where these touch."""
     large = np.flatnonzero(first.volumes >= recursion.smallest_m3)
     chosen = set(generator.permutation(large)[: round(recursion.share * len(large))].tolist())
     if not chosen or recursion.shards < 2:
@@ -196,7 +196,7 @@ def _fractured(solid: TriangleMesh, points: FloatArray, stretch: FloatArray | No
 def _pieces(solid: TriangleMesh, points: FloatArray, stretch: FloatArray | None) -> list[_Piece]:
     """The connected parts of every cell within the solid, cell by cell.
 
-    Stretched cells are those of a space that is squeezed by as much, in which all directions count the same.
+    Stretched cells come from a space that is squeezed by as much, in which all directions count the same.
     """
     lower, upper = solid.bounds
     if stretch is not None:
@@ -220,7 +220,7 @@ def _pieces(solid: TriangleMesh, points: FloatArray, stretch: FloatArray | None)
 
 
 def _facing(shell: Manifold, cut: int) -> FloatArray:
-    """The point (t,) beyond each triangle that the original `cut` made, -1 for those of the solid's own surface."""
+    """The point (t,) beyond each triangle that the original `cut` made, -1 on the solid's own surface."""
     mesh = shell.to_mesh64()
     triangles_of_run = np.diff(np.asarray(mesh.run_index, dtype=np.int64)) // 3
     is_cut = np.repeat(np.asarray(mesh.run_original_id) == cut, triangles_of_run)
@@ -264,7 +264,7 @@ def _laid_over(triangles: _Triangles, candidates: IntArray) -> tuple[IntArray, I
 
 
 def _matching(keys: IntArray, others: IntArray) -> tuple[IntArray, IntArray]:
-    """Indices into both of all pairs of equal keys."""
+    """Indices into both for each pair of equal keys."""
     order = np.argsort(others, kind="stable")
     starts = np.searchsorted(others[order], keys, side="left")
     ends = np.searchsorted(others[order], keys, side="right")

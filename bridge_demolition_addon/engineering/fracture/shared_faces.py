@@ -127,7 +127,7 @@ def overlaps(first: FloatArray, second: FloatArray) -> tuple[FloatArray, FloatAr
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Surface:
-    """All triangles of all meshes with their boxes, and where those of each mesh begin: `bounds` (n + 1,)."""
+    """The meshes' triangles with their boxes, and where each mesh begins: `bounds` (n + 1,)."""
 
     corners: FloatArray
     areas: FloatArray
@@ -148,7 +148,7 @@ class _Surface:
 def _touching_patches(
     surface: _Surface, pairs: IntArray, lower: FloatArray, upper: FloatArray, tolerance: float
 ) -> tuple[IntArray, FloatArray, FloatArray, FloatArray]:
-    """Pairs, areas, centres and normals of all common patches, triangle by triangle, of these pairs of meshes."""
+    """Pairs, areas, centres and normals of the common patches, triangle by triangle, of these pairs of meshes."""
     row, first, second = _facing_triangles(surface, pairs, lower, upper, tolerance)
     areas, centres = overlaps(surface.corners[first], surface.corners[second])
     gap = dot(centres - surface.corners[second, 0], surface.normals[second])

@@ -42,7 +42,7 @@ def slabs(solid: TriangleMesh, axis: int, positions_m: Sequence[float]) -> tuple
 
 
 def cut_out(solid: TriangleMesh, box: TurnedBox) -> tuple[TriangleMesh, ...]:
-    """Return the connected pieces of a solid around a box, then those in it; the solid itself beside the box.
+    """Return the connected pieces of a solid around a box, then those in it; the solid itself outside the box.
 
     The sides of the box are planes that cut off one piece after the other, so that the pieces of a convex solid are.
     """
@@ -108,7 +108,7 @@ _THROUGH = (1.0, 1.0, 100.0)
 def inclined_fracture(
     solid: TriangleMesh, shard_count: int, seed: int, options: FractureOptions, direction: tuple[float, float]
 ) -> Fracture:
-    """Return a solid in shards as `fracture` does, none of which ends within its thickness where plates are cut so.
+    """Fracture a solid as `fracture` does, with no shard that ends within the thickness of plates cut so.
 
     Parameters
     ----------

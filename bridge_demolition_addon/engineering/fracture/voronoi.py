@@ -72,7 +72,7 @@ def convex_cells(points: FloatArray, lower: FloatArray, upper: FloatArray) -> It
 
 
 def _clipped_by_nearest(cells: _Polyhedra, points: FloatArray, members: IntArray, scale: float) -> _Polyhedra:
-    """Cells clipped by all points that can cut them; cell k is that of point members[k]."""
+    """Cells clipped by all points that can cut them; cell k belongs to point members[k]."""
     own = points[members]
     tolerance = PLANE_TOLERANCE * scale
     # The neighbours still to come, by distance; infinitely far are those that are done with or cannot cut any more.

@@ -66,7 +66,7 @@ def across_road(
     across_m
         Position of its middle along y.
     triangles : (t, 3) int, optional
-        Corners of triangles that fill it, counter-clockwise; by default those of a convex one.
+        Corners of triangles that fill it, counter-clockwise; by default of a convex one.
     """
     count = len(outline_m)
     corner = np.arange(count)
@@ -125,7 +125,7 @@ class ArchAxis:
         return np.column_stack((x_m - half * slopes, heights + half))
 
     def seat_m(self, column_m: float, length_m: float) -> float:
-        """Return the height at which a column stands: that of the top at the higher side of its foot."""
+        """Return the height at which a column stands: the top at the higher side of its foot."""
         return float(self.points_m(self._below(_foot(column_m, length_m)), 1.0)[:, 1].max())
 
     def profile(self, columns_m: Sequence[float], length_m: float) -> RoadProfile:

@@ -1,7 +1,7 @@
 """Solids around hollows and corners, cut into parts that are convex, or nearly so.
 
-A solid is cut along the plane of one of its own faces at an edge that points inwards. Of all such planes the one that
-leaves least of the parts' convex hulls empty cuts first.
+A solid is cut along the plane of one of its own faces at an edge that points inwards. The plane that leaves least of
+the parts' convex hulls empty cuts first.
 """
 
 from __future__ import annotations
@@ -103,7 +103,7 @@ def _without_films(body: Manifold, smallest_m3: float) -> TriangleMesh:
 
 
 def _without_slivers(pieces: list[_Part], least_m3: float, most_excess_m3: float) -> list[_Part]:
-    """Return pieces of which each smaller one is sewn to that beside it with which it is most convex, or none.
+    """Sew each smaller piece to the neighbour with which it is most convex, or to none.
 
     None either where they would have more in excess than `most_excess_m3`: a sliver takes no more away than it fills.
     """
@@ -123,14 +123,14 @@ def _without_slivers(pieces: list[_Part], least_m3: float, most_excess_m3: float
 
 
 def _have_joined(first: _Part, second: _Part, whole: _Part) -> bool:
-    """Return whether two pieces had a face in common, of which their union has lost both sides."""
+    """Return whether two pieces had a face in common that is gone from their union on both sides."""
     area_m2 = second.body.surface_area()
     lost_m2 = first.body.surface_area() + area_m2 - whole.body.surface_area()
     return bool(lost_m2 > _COMMON * area_m2)
 
 
 def _planes_at_inward_edges(mesh: TriangleMesh) -> Iterator[tuple[FloatArray, float]]:
-    """Yield planes, normal (3,) and offset, along faces beside edges that point inwards: those of most edge first.
+    """Yield planes, normal (3,) and offset, along faces at edges that point inwards, longest edges first.
 
     Faces that are warped lie on both sides of one plane, and it would leave films of them: of each there are two
     planes, between which all such edges are.
@@ -156,7 +156,7 @@ def _planes_at_inward_edges(mesh: TriangleMesh) -> Iterator[tuple[FloatArray, fl
 
 
 def _faces_at_inward_edges(mesh: TriangleMesh) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Return normals (f, 3) of faces beside edges that point inwards, ends (f, 2, 3) of the edges, and lengths (f,)."""
+    """Return normals (f, 3) of faces at edges that point inwards, ends (f, 2, 3) of the edges, and lengths (f,)."""
     areas, normals = triangle_areas_and_normals(mesh.corners)
     first, second, ends = _edges_between(mesh.triangles)
     flat = (areas[first] > 0.0) & (areas[second] > 0.0)

@@ -1,8 +1,8 @@
 """Convex hulls of bodies as flat arrays, which a blast wave meets, and which hide others from it; and how deep two lie
 in each other.
 
-Two are apart where a plane separates them, which then is that of a face of one of them, or along an edge of both
-(S. Gottschalk, M. C. Lin, D. Manocha 1996, OBBTree, SIGGRAPH 96, section 5).
+Two are apart where a plane separates them, which then lies along a face of one of them, or along an edge of both (S.
+Gottschalk, M. C. Lin, D. Manocha 1996, OBBTree, SIGGRAPH 96, section 5).
 """
 
 from __future__ import annotations

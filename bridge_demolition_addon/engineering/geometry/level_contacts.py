@@ -122,7 +122,7 @@ def _in_plan(triangle: FloatArray) -> CrossSection:
 
 
 def _contact(rings: list[FloatArray], planes: FloatArray) -> LevelContact:
-    """Area within rings, of which those of holes run clockwise; its axis follows the middles along the road."""
+    """Area within rings; holes run clockwise; its axis follows the middles along the road."""
     base = rings[0][0]
     area, first, second = 0.0, np.zeros(2), np.zeros(2)
     for ring in rings:

@@ -52,7 +52,7 @@ def hulls(shards: Sequence[TriangleMesh]) -> list[TriangleMesh]:
 def separated(solids: Sequence[TriangleMesh], names: Sequence[str]) -> tuple[list[TriangleMesh], FloatArray]:
     """Closed solids without what they have in common with those before them, and the volumes (n,) cut off them, m³.
 
-    An unchanged solid is the same object. A `GeometryError` names all of which nothing is left.
+    An unchanged solid is the same object. A `GeometryError` names every solid that is cut away whole.
     """
     whole = [to_manifold(solid, name) for solid, name in zip(solids, names, strict=True)]
     result, removed = list(solids), np.zeros(len(solids))

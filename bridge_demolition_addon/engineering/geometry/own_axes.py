@@ -192,7 +192,7 @@ def lying_axes(solid: TriangleMesh, road: FloatArray | None = None) -> OwnAxes:
 
 
 def _to_the_ends(stations: FloatArray, values: FloatArray, begin: float, end: float) -> tuple[FloatArray, FloatArray]:
-    """Add values at both ends of a line, as far from those beside them as these are from the next."""
+    """Add values at both ends of a line, as far from their neighbours as these are from the next."""
     if len(stations) < 2:
         return np.array([begin, end]), np.repeat(values[:1], 2, axis=0)
     slopes = [(values[b] - values[a]) / (stations[b] - stations[a]) for a, b in ((0, 1), (-2, -1))]

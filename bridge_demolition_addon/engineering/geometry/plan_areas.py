@@ -48,7 +48,7 @@ def without_gaps(area: CrossSection, gap_m: float) -> CrossSection:
 
 
 def outlines(area: CrossSection) -> list[FloatArray]:
-    """Closed outlines of an area, each (k, 2) in m: outer ones run anticlockwise, those of holes clockwise."""
+    """Closed outlines of an area, each (k, 2) in m: outer ones run anticlockwise, holes clockwise."""
     return [np.asarray(polygon, float) for polygon in area.to_polygons()]
 
 
@@ -218,7 +218,7 @@ class PlanCells:
     def touched(self, rings: Sequence[FloatArray]) -> BoolArray:
         """Return the cells (rows, columns) that an area covers wholly or in part, even the smallest.
 
-        Its outlines (k, 2), as `outlines` gives them, lie within the cells; those of holes run the other way round.
+        Its outlines (k, 2), as `outlines` gives them, lie within the cells; holes run the other way round.
         """
         grid = np.zeros((self.rows, self.columns), bool)
         if not len(rings):

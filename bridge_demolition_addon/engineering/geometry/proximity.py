@@ -105,7 +105,7 @@ def nearest_points(points: FloatArray, count: int) -> tuple[IntArray, FloatArray
 class _Grid:
     """Points (n, 3) with the numbers of their cells (n,), also in ascending order; an empty layer of cells is around.
 
-    The steps (9,) lead from the number of a cell to those of the rows of cells beside and around it.
+    The steps (9,) lead from the number of a cell to the rows of cells around it.
     """
 
     points: FloatArray
@@ -176,7 +176,7 @@ def _likely_radius(points: FloatArray, count: int) -> float:
 def _keep_nearest(
     query: IntArray, other: IntArray, apart: FloatArray, indices: IntArray, distances: FloatArray
 ) -> IntArray:
-    """Enter the nearest others of all queries that have enough of them, and return these queries."""
+    """Enter the nearest others of each query that has enough of them, and return these queries."""
     order = np.lexsort((other, apart, query))
     query, other, apart = query[order], other[order], apart[order]
     unique, starts, counts = np.unique(query, return_index=True, return_counts=True)

@@ -36,7 +36,7 @@ def sewn(mesh: TriangleMesh, patch: BoolArray, tolerance_m: float) -> TriangleMe
     """Closed meshes, joined to one, without the patches (t,) they touch along, closed again across the rims.
 
     The patches come in two layers, one of either mesh, that cover each other. Corners of the rims that are no further
-    apart than the tolerance are one. Vertices stay, those of the patches are no longer used. Where a corner of one rim
+    apart than the tolerance are one. Vertices stay; the patches' vertices are no longer used. Where a corner of one rim
     lies on an edge of the other, a triangle without area joins them.
     """
     rim = np.unique(_open_edges(mesh.triangles[~patch]))
@@ -46,7 +46,7 @@ def sewn(mesh: TriangleMesh, patch: BoolArray, tolerance_m: float) -> TriangleMe
 
 
 def without_slivers(triangles: IntArray) -> IntArray:
-    """Those of the triangles (t, 3) that have no vertex twice."""
+    """Triangles (t, 3) without a repeated vertex."""
     proper: IntArray = triangles[(triangles != np.roll(triangles, 1, axis=1)).all(axis=1)]
     return proper
 

@@ -58,7 +58,7 @@ def cylinder(radius_m: float, height_m: float, sides: int) -> TriangleMesh:
 def round_column(diameter_m: float, height_m: float, centre_m: Sequence[float]) -> TriangleMesh:
     """An upright prism of 16 sides with the section of a round column; two pairs of them look along x and y.
 
-    Its second moment of area is that of the circle to 0.02 %.
+    Its second moment of area agrees with the circle's to 0.02 %.
     """
     angles = math.tau / _ROUND_SIDES * (np.arange(_ROUND_SIDES) + 0.5)
     radius = 0.5 * across_flats_m(diameter_m) / float(cosine(math.pi / _ROUND_SIDES))

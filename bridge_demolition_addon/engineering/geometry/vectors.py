@@ -3,7 +3,7 @@
 Sums run in a fixed order, component by component. Products by numpy's `@`, `dot`, `einsum` or `linalg` go through
 libraries that choose another order by processor, and one bit is enough for another fracture and another collapse.
 
-Leading axes of all arguments are broadcast against each other.
+The arguments' leading axes are broadcast against each other.
 
 Arrays whose components lie together in memory, all x and then all y, are worked on in a third of the time. `dot`,
 `length` and `transformed` keep that order, `by_component` and `cross_by_component` give it.
@@ -41,7 +41,7 @@ def length(vectors: FloatArray) -> FloatArray:
 
 
 def distance(first: FloatArray, second: FloatArray) -> FloatArray:
-    """Distances (...) between points (..., k), without an array of all their differences."""
+    """Distances (...) between points (..., k), without an array of their differences."""
     squares = np.square(first[..., 0] - second[..., 0])
     for axis in range(1, first.shape[-1]):
         squares = squares + np.square(first[..., axis] - second[..., axis])

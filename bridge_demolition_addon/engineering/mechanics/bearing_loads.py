@@ -46,9 +46,8 @@ class BearingPads:
     ) -> BearingPads:
         """Return the pads of connections (c,), each of one of the bearings 0 to b - 1.
 
-        Pairs (c, 2) of bodies, of which the first lies above, points (c, 3), areas (c,), stiffness (c, 2) and whether
-        they lift off (c,) are those of the connections. Positions (n, 3) and rotations (n, 3, 3) are those of all
-        bodies as they were built.
+        Each connection has its pair (c, 2) of bodies, the upper one first, its point (c, 3), area (c,), stiffness (c,
+        2) and whether it lifts off (c,). Positions (n, 3) and rotations (n, 3, 3) are of the bodies as built.
         """
         order = np.argsort(bearings, kind="stable")
         of, points = bearings[order], points_m[order]

@@ -4,7 +4,7 @@ What judging reads of a connection is packed so that it lies together in memory.
 and there, between sub-steps in which Bullet drives out of the processor's cache what was read before. So what counts is
 not how much it calculates, but how many cache lines it waits for, and how many of Bullet's own they take the place of.
 
-Elastic connections share a load by their stiffness, so a face beside a notch, an edge or a fixed end carries more than
+Elastic connections share a load by their stiffness, so a face next to a notch, an edge or a fixed end carries more than
 the mean, and the more so the smaller the shards are. A member does not crack there before a whole section of it is
 overloaded. So a face is judged with all that a plane through it parts near it, as one section that stays plane. Such a
 section is as large with few shards as with many, and so is the load at which it breaks.
@@ -116,7 +116,7 @@ class CarriedSections:
         return int(self.bodies.min(initial=0)), int(self.bodies.max(initial=0))
 
     def carrying(self, loads: FloatArray, positions_m: FloatArray, rotations: FloatArray) -> CarriedLoads:
-        """Return the loads of all connections after each of s sub-steps, as the core takes them.
+        """Return the connections' loads after each of s sub-steps, as the core takes them.
 
         Loads (6, s, m) are forces, and moments about the centres of the bodies, at positions (3, s, n) in rotations
         (3, 3, s, n); s may be left out where it is 1.
@@ -135,7 +135,7 @@ class CarriedSections:
         )
 
     def loads(self, loads: FloatArray, positions_m: FloatArray, rotations: FloatArray) -> ConnectionLoads:
-        """Return the loads of all connections after each of s sub-steps, as arrays (s, m, 3).
+        """Return the connections' loads after each of s sub-steps, as arrays (s, m, 3).
 
         All is given as `carrying` takes it. Each component lies together in memory.
         """
@@ -144,7 +144,7 @@ class CarriedSections:
         return ConnectionLoads(*(components.transpose(1, 2, 0) for components in found))
 
     def loads_at_once(self, loads: FloatArray, positions_m: FloatArray, rotations: FloatArray) -> ConnectionLoads:
-        """Return the loads (6, m) of all connections at one time, as arrays (m, 3)."""
+        """Return the connections' loads (6, m) at one time, as arrays (m, 3)."""
         found = self.loads(loads[:, None], positions_m, rotations)
         return ConnectionLoads(found.forces_n[0], found.moments_nm[0], found.points_m[0])
 
@@ -165,8 +165,8 @@ class MemberSections:
     """Sections through m connections as they were built, between n bodies.
 
     `moves` (n,): a body that does not move is behind its faces, wherever its centre is. `kinds` (m,): a section has
-    connections of one kind, those between the same two members. `thicknesses_m` (m,) are those of the thinner of these
-    members; nan where it is not known.
+    connections of one kind, those between the same two members. `thicknesses_m` (m,) are of the thinner member; nan
+    where it is not known.
     """
 
     def __init__(
@@ -190,7 +190,7 @@ class MemberSections:
         self._are_whole = np.zeros(count, bool)
 
     def are_whole(self, rows: IntArray) -> BoolArray:
-        """Whether the sections of some connections (k,) are those of their members, as they were built: (k,) bool."""
+        """Whether some connections (k,) still have the sections of their members as built: (k,) bool."""
         for row in rows[self._firsts[rows] < 0].tolist():
             self._find(row)
         return self._are_whole[rows]

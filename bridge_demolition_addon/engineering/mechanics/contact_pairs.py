@@ -1,8 +1,8 @@
 """Friction and restitution of pairs of surfaces, and the values of single bodies that Bullet multiplies to have them.
 
 A contact in Bullet has the product of the values of its two bodies (`btManifoldResult`, `calculateCombinedFriction` and
-`calculateCombinedRestitution`). Shards touch shards as well as all other bodies. So their value is the root of that of
-the pair of two shards, and each other body has what makes its pair with a shard.
+`calculateCombinedRestitution`). Shards touch shards as well as all other bodies. So their value is the root of the
+value of a pair of shards, and each other body has what makes its pair with a shard.
 """
 
 from __future__ import annotations
@@ -18,12 +18,12 @@ bounding box (`btCollisionShape::getContactBreakingThreshold`)."""
 
 
 def shard_value(of_two_shards: float) -> float:
-    """Return the value of a shard by that of the contact of two."""
+    """Return the value of a shard from the value of a contact of two shards."""
     return math.sqrt(of_two_shards)
 
 
 def other_value(with_shard: float, of_two_shards: float) -> float:
-    """Return the value of another body by that of its contact with a shard and that of two shards; 0 by 0 is 0.
+    """Return the value of another body from the values of its contact with a shard and of two shards; 0 by 0 is 0.
 
     Raises
     ------

@@ -37,7 +37,7 @@ class CrackFaces:
 
     A section of steel is four fibres at W_pl / A from its axes. They yield at its plastic axial force and moments, by
     the linear rule of EN 1993-1-1:2005, 6.2.1 (7), and press as they pull. Studs go on with the shear that they
-    carried, and their face presses as that of a crack.
+    carried, and their face presses as a crack does.
     """
 
     def __init__(self, areas_m2: FloatArray, second_moments_m4: FloatArray, bars: FaceBars):

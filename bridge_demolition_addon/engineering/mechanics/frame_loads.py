@@ -85,8 +85,8 @@ class Moment:
 class FrameLoads:
     """Loads of one frame on n bodies and m connections.
 
-    Forces on a body are those of its connections and contacts together, without gravity. Loads of a connection are on
-    its first body, about the connection's own point.
+    The force on a body sums its connections and contacts, without gravity. Loads of a connection are on its first body,
+    about the connection's own point.
     """
 
     body_forces_n: FloatArray  # (n, 3), mean of the resultant
@@ -133,7 +133,7 @@ class LoadAccumulator:
     """Adds up the loads of a frame, some sub-steps at a time; how many makes no difference, to the last bit.
 
     Stress is calculated twice a frame and not for every sub-step, which would cost more than all the rest: from the
-    mean loads, and from those of the sub-step in which all loads together were largest.
+    mean loads, and from the loads of the sub-step in which they were largest together.
 
     A body with a volume of 0 has no stress. `normals_at` gives the unit normals (m, 3) of the connections under
     rotations (n, 3, 3) of the bodies.

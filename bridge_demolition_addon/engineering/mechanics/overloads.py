@@ -80,11 +80,11 @@ class Overloads:
     by. Rigid ones, which share loads by chance, are judged by cuts through single shards, and so are elastic ones whose
     section clips an edge of a member.
 
-    In all methods `rows` (r,) are intact connections and `axes` (r, 3, 3) those of their sections, `loads` those of
-    all; `left` (m,) is what is left of the strength of each, `intact` (m,) what still holds, `parts` (m,) what elastic
-    connections hold together. `pressed` (m,) is by how much more of it is left in compression, and the caller keeps it
-    up to date; None where it is as much everywhere. `friction` (m,) is what helps pressed faces against shear; None
-    where it is not counted on.
+    In all methods `rows` (r,) are intact connections and `axes` (r, 3, 3) their sections' axes, `loads` the loads of
+    every connection; `left` (m,) is what is left of the strength of each, `intact` (m,) what still holds, `parts` (m,)
+    what elastic connections hold together. `pressed` (m,) is by how much more of it is left in compression, and the
+    caller keeps it up to date; None where it is as much everywhere. `friction` (m,) is what helps pressed faces against
+    shear; None where it is not counted on.
     """
 
     def __init__(
@@ -189,7 +189,7 @@ class Overloads:
         return True
 
     def _core_judging(self, faces: ConnectedFaces, cuts: SectionCuts) -> Judging:
-        """Return what the core knows of all connections; arrays that the caller keeps up to date are his own."""
+        """Return what the core knows of the connections; arrays that the caller keeps up to date are his own."""
         count, entries, most = len(faces.pairs), len(cuts.faces), int(np.diff(cuts.starts).max(initial=0))
         if self._member_sections is not None:
             most = count
@@ -272,6 +272,6 @@ class Overloads:
 
 
 def _overloaded(rows: IntArray, used: FloatArray) -> tuple[IntArray, FloatArray]:
-    """Return those of connections (r,) whose utilisations (r,) are above 1, with these."""
+    """Return the connections (r,) with utilisations (r,) above 1, and these."""
     is_over = used > 1.0
     return rows[is_over], used[is_over]

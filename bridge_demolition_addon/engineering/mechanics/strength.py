@@ -121,12 +121,11 @@ def rectangular_sections(areas: FloatArray, second_moments: FloatArray) -> Secti
     """Sections with areas (m,), m², and second moments of area, as the rectangles that have the same.
 
     The second moments (m, 2, 2), m⁴, are about the section's y and z axes through its centre: ∫ z² dA and ∫ y² dA on
-    the diagonal, -∫ y z dA beside it; positive definite.
+    the diagonal, -∫ y z dA off it; positive definite.
 
-    The edges of a section of any shape are taken to be as far from its middle as those of the rectangle with the same
-    area and second moments: √(3 I / A). That is exact for rectangles, whichever way they are turned, but for squares,
-    whose second moments do not say it: these lie along the section's axes, as those of upright columns and level beams
-    do.
+    A section of any shape gets the edges of the rectangle with the same area and second moments: √(3 I / A). That is
+    exact for rectangles, whichever way they are turned, but for squares, whose second moments do not say it: these lie
+    along the section's axes, as in upright columns and level beams.
 
     Torsion of a rectangle b > c: stress = T / (b c²) × (3 + 1.8 c/b), within 5 % (S. Timoshenko, 1955, Strength of
     Materials, part I, 3rd edition, section 62).

@@ -36,8 +36,8 @@ def average_stress(
     Point loads (k, 3), N, act at points (k, 3), m, on the first bodies of pairs (k, 2), and the opposite on the second.
     The tensor is symmetric; 0 for a body without a volume, and nan for one with a load that is nan.
 
-    The lever arms r start at the centre of mass: gravity and any common acceleration of the whole body, such as that of
-    a free fall or a hit through the centre, then add nothing, and the formula is exact. It leaves out the inertia of
+    The lever arms r start at the centre of mass: gravity and any common acceleration of the whole body, such as in a
+    free fall or a hit through the centre, then add nothing, and the formula is exact. It leaves out the inertia of
     turning. Where the loads make a body turn ever faster, the sum has a part that is not symmetric, half their moment;
     it turns the body and is no stress, so only the symmetric part is taken. Of a long body, the same turning takes some
     of the symmetric part too, and an angular velocity adds a tension of about density × ω² L² / 12, which is 0.02 N/mm²
@@ -95,11 +95,11 @@ def principal_stresses(stresses: FloatArray) -> FloatArray:
 class PairSums:
     """Sums over the pairs of n bodies in each of s sub-steps, all at once. `shape` is (s, n).
 
-    The sum of the magnitudes of all forces on a body measures how hard it is held from all sides, where the resultant
+    The sum of the magnitudes of the forces on a body measures how hard it is held from all sides, where the resultant
     of a body at rest is only its weight.
 
     `pairs` (k, 2) are bodies, `substeps` (k,) the sub-step of each pair; None where all pairs are in all sub-steps, and
-    values are (s, k). `first` and `second` are rows of the pairs' bodies among those (s n,) of all sub-steps.
+    values are (s, k). `first` and `second` are the pairs' bodies as rows (s n,), sub-step after sub-step.
     """
 
     def __init__(self, pairs: IntArray, substeps: IntArray | None, shape: tuple[int, int]):

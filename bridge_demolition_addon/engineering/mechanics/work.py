@@ -174,7 +174,7 @@ class WorkAccumulator:
         """Add some sub-steps, at whose ends bodies move as `after`.
 
         `free` (s, n): bodies that move freely in them. The others rest, or move as animation says. `resultants_ns` (s,
-        n, 3) are the sums of all impulses between bodies.
+        n, 3) are the sums of the impulses between bodies.
         """
         whole, masses = after.from_(self._before), np.where(free, self._masses, 0.0)
         self._before = after

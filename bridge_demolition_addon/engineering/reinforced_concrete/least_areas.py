@@ -85,7 +85,7 @@ def clear_m(diameter_m: float) -> float:
 
 
 def row_depth_m(diameter_m: float, rows: int) -> float:
-    """Return how far the middle of all rows is from the outer edge of the bars."""
+    """Return how far the middle of the rows is from the outer edge of the bars."""
     return 0.5 * diameter_m + 0.5 * (rows - 1) * (diameter_m + clear_m(diameter_m))
 
 
@@ -97,9 +97,9 @@ def diameters_from(preferred_m: float) -> tuple[float, ...]:
 def bars_in_rows(
     area_m2: float, room_m: float, diameter_m: float, rows: int, *, least_spacing_m: float, most_spacing_m: float
 ) -> BarChoice | None:
-    """Return bars of a diameter with an area at least, in so many rows over a width; None where they do not fit.
+    """Return bars of a diameter with an area at least, in rows over a width; None where they do not fit.
 
-    `room_m` is from the outer edge of the first bar to that of the last.
+    `room_m` is from outer edge to outer edge of the first and last bars.
     """
     between = max(room_m - diameter_m, 0.0)
     least = max(least_spacing_m, diameter_m + clear_m(diameter_m))

@@ -63,7 +63,7 @@ class Concrete:
 
     @property
     def block_depth(self) -> float:
-        """λ, depth of the stress block by that of the neutral axis: equations 3.19 and 3.20."""
+        """λ, depth of the stress block over depth of the neutral axis: equations 3.19 and 3.20."""
         return 0.8 - max(self.strength_pa / _MEGA - _ORDINARY_N_MM2, 0.0) / 400.0
 
     @property

@@ -26,7 +26,7 @@ class PressedShape:
 
 @dataclass(frozen=True, slots=True)
 class TensionSteel:
-    """Area of bars in tension, and depth of the neutral axis by that of the bars; both infinite where no area does."""
+    """Area of bars in tension, and depth of the neutral axis by the bars' depth; both infinite where no area does."""
 
     area_m2: float
     neutral_axis: float
@@ -38,7 +38,7 @@ def tension_steel(
     """Return the bars at a depth below the pressed edge with which a section resists a moment.
 
     Plane sections, a stress block, no concrete in tension, bars at their design strength: EN 1992-1-1:2004, 6.1 and
-    3.1.7 (3). Of a T-section what the flange beside the web resists comes first, and the web resists the rest.
+    3.1.7 (3). In a T-section the flange on both sides of the web resists first, and the web resists the rest.
     """
     stress = concrete.block_pa
     as_wide = _block_m(moment_nm, shape.flange_m, depth_m, stress)
@@ -198,9 +198,8 @@ class ColumnSection:
 def design_moment_nm(axial_n: float, section: ColumnSection, buckling_m: float) -> float:
     """Return the moment of a column that is loaded in its middle, with all eccentricities of EN 1992-1-1:2004.
 
-    Of first order that of 6.1 (4) or of imperfections, 5.2 (7), whichever is larger. Of second order, where it is more
-    slender than 5.8.3.1 (1) allows, by nominal curvature, 5.8.8, with K_r = K_φ = 1 and c = 10. 0.7, 1.1 and 0.7 for
-    A, B and C.
+    First order: 6.1 (4) or imperfections, 5.2 (7), whichever is larger. Of second order, where it is more slender than
+    5.8.3.1 (1) allows, by nominal curvature, 5.8.8, with K_r = K_φ = 1 and c = 10. 0.7, 1.1 and 0.7 for A, B and C.
     """
     height = section.height_m
     eccentricity = max(height / 30.0, 0.02, _IMPERFECTION * buckling_m / 2.0)

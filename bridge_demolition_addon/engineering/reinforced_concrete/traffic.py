@@ -18,7 +18,7 @@ _ACROSS = 24
 
 @dataclass(frozen=True, slots=True)
 class Traffic:
-    """Loads of all lanes of a carriageway.
+    """Loads of a carriageway's lanes.
 
     Each lane has the same moving loads, one at a time, times its factors: for axles and for its uniform load.
     """
@@ -39,14 +39,14 @@ class Traffic:
 
     @property
     def rest_m(self) -> float:
-        """Width of the carriageway beside the lanes."""
+        """Width of the carriageway outside the lanes."""
         return max(self.carriageway_m - self.lanes * self.lane_m, 0.0)
 
     def presence_of(self, lanes: int) -> float:
         return self.presence[min(lanes, len(self.presence)) - 1] if self.presence and lanes else 1.0
 
     def on_whole_width(self) -> tuple[MovingLoad, ...]:
-        """Return the loads of all lanes together."""
+        """Return the sum of the lanes' loads."""
         return self._of_lanes([1.0] * self.lanes, [1.0] * self.lanes, self.rest_m)
 
     def on_part(self, line: Callable[[FloatArray], FloatArray]) -> tuple[MovingLoad, ...]:
@@ -136,7 +136,7 @@ def load_model_1(carriageway_m: float) -> Traffic:
     """Return load model 1 with α = 1: EN 1991-2:2003, 4.3.2 and tables 4.1 and 4.2.
 
     Axles of 300, 200 and 100 kN, two in each of the first three lanes, 1.2 m apart, with 2 m between their wheels; 9
-    kN/m² in the first lane, 2.5 in others and beside them. A carriageway that is narrower than a lane is one.
+    kN/m² in the first lane, 2.5 in others and outside them. A carriageway that is narrower than a lane is one.
     """
     if carriageway_m < 5.4:
         lanes, lane = 1, min(3.0, carriageway_m)

@@ -54,8 +54,8 @@ class NeyerTest:
     def levels(self, outcomes: Sequence[bool], count: int) -> FloatArray:
         """Return the levels (count,) of the first runs, when the outcomes of the first n are known.
 
-        Each was chosen when the outcomes of all runs but the last `pending` before it were known, so that count is at
-        most n + pending + 1.
+        Each was chosen when every outcome but the last `pending` before it was known, so that count is at most n +
+        pending + 1.
         """
         return np.array(list(islice(self.played(outcomes.__getitem__), count)))
 

@@ -1,9 +1,9 @@
 """The probability of success along one quantity as a normal distribution, from runs that succeeded or did not.
 
 P(success at x) = Φ((x - μ) / σ). Runs overlap where a success is lower than a failure; only then is σ above 0 by
-maximum likelihood (M. J. Silvapulle, 1981, Journal of the Royal Statistical Society B 43, 310-313). Limits are those of
-the likelihood ratio, which hold with few runs, unlike those by the curvature of the likelihood (B. T. Neyer, 1992,
-Sensitivity testing and analysis, 16th International Pyrotechnics Seminar).
+maximum likelihood (M. J. Silvapulle, 1981, Journal of the Royal Statistical Society B 43, 310-313). Limits by the
+likelihood ratio hold with few runs, unlike limits by the curvature of the likelihood (B. T. Neyer, 1992, Sensitivity
+testing and analysis, 16th International Pyrotechnics Seminar).
 """
 
 from __future__ import annotations
@@ -114,7 +114,7 @@ def log_likelihood(runs: LevelOutcomes, normal: SuccessCurve) -> float:
 
 
 def profile_likelihood(runs: LevelOutcomes, position: float, chance: float) -> float:
-    """Largest logarithm of the likelihood of all distributions with this probability of success at a level."""
+    """Largest logarithm of the likelihood over the distributions with this probability of success at a level."""
     signs = np.where(runs.successes, 1.0, -1.0)
     offsets, base = runs.levels - position, normal_quantile(chance)
     offsets = offsets / max(np.ptp(runs.levels), abs(offsets).max(), 1e-300)

@@ -2,9 +2,9 @@
 
 All limits of this package rest on it: the binomial distribution is the regularised incomplete beta function of whole
 numbers, P(at most k of n) = I_(1-p)(n - k, k + 1). C. Loader (2000), Fast and Accurate Computation of Binomial
-Probabilities: `_probability_of`, its Stirling errors and deviances. The limits for a proportion are those of C. J.
-Clopper and E. S. Pearson (1934), The use of confidence or fiducial limits illustrated in the case of the binomial,
-Biometrika 26, 404-413.
+Probabilities: `_probability_of`, its Stirling errors and deviances. Limits for a proportion: C. J. Clopper and E. S.
+Pearson (1934), The use of confidence or fiducial limits illustrated in the case of the binomial, Biometrika 26,
+404-413.
 """
 
 from __future__ import annotations

@@ -7,14 +7,14 @@ One count serves three questions, because in each of them this number of runs to
 distribution that lies outside is then at most theirs:
 
 - the k-th largest of one quantity as its limit (Wilks 1941): k runs;
-- the largest of each of m quantities as limits of all m at once (Guba, Makai and Pál 2003): m runs;
+- the largest of each of m quantities as limits of the m at once (Guba, Makai and Pál 2003): m runs;
 - the smallest shape with d free dimensions around all runs (Campi and Garatti 2008): d runs.
 
 S. S. Wilks (1941), Determination of sample sizes for setting tolerance limits, Annals of Mathematical Statistics 12,
 91-96. A. Guba, M. Makai and L. Pál (2003), Statistical aspects of best estimate method, Reliability Engineering and
 System Safety 80, 217-232. M. C. Campi and S. Garatti (2008), The exact feasibility of randomized solutions of uncertain
-convex programs, SIAM Journal on Optimization 19, 1211-1230: their bound, which for d dimensions is that of the d-th
-largest of one.
+convex programs, SIAM Journal on Optimization 19, 1211-1230: their bound, which for d dimensions equals the bound of the
+d-th largest in one dimension.
 
 Two sets of independent runs of one distribution mix evenly. How many of the second lie below a run of the first depends
 on its rank alone, whatever the distribution is: H. A. David and H. N. Nagaraja (2003), Order Statistics, 3rd edition,
@@ -31,7 +31,7 @@ from .binomial import binomial_cdf, upper_limit
 
 
 def achieved_confidence(support_count: int, runs: int, quantile: float) -> float:
-    """Return how sure it is that at least a share `quantile` of all runs to come stays within a limit.
+    """Return how sure it is that at least a share `quantile` of the runs to come stays within a limit.
 
     `support_count` runs set the limit: for the k-th largest as limit of one quantity, k.
     """
@@ -70,7 +70,7 @@ def most_support_by_runs(runs: IntArray, quantile: float, confidence: float) -> 
 
 
 def coverage(support_count: int, runs: int, confidence: float) -> float:
-    """Return the largest share of all runs to come that stays within the limit with the confidence."""
+    """Return the largest share of the runs to come that stays within the limit with the confidence."""
     return 1.0 - float(upper_limit(support_count - 1, runs, confidence))
 
 

@@ -2,8 +2,8 @@
 
 Bars of drawings and models end where they are cut, clear of what they are joined to by plates, and their axes do not
 always meet in one point. Two are joined where the axis of one, made longer at its end, passes the other near enough for
-their sections to touch. Bars keep their axes: nodes are where these meet, and how far an axis runs beside its node is
-part of the result.
+their sections to touch. Bars keep their axes: nodes are where these meet, and the eccentricity of an axis at its node
+is part of the result.
 """
 
 from __future__ import annotations
@@ -124,7 +124,7 @@ class BarFrame:
     node_of_support
         The node that each support is at, in the order of these.
     within_nodes
-        Bars that are too short beside their sections, and the node that each is within.
+        Bars that are too short for their sections, and the node that each is within.
     free_ends
         Ends, 0 or 1, of bars that meet no other bar, and are on no support.
     crossings
@@ -141,7 +141,7 @@ class BarFrame:
 
     @property
     def eccentricities_m(self) -> dict[int, float]:
-        """How far each bar runs beside the farthest of its nodes."""
+        """Largest eccentricity of each bar at its nodes."""
         found: dict[int, float] = {}
         for piece in self.pieces:
             apart = float(length(piece.from_nodes_m).max())
@@ -150,7 +150,7 @@ class BarFrame:
 
 
 def bar_frame(axes: BarAxes, supports: Sequence[BarStation] = ()) -> BarFrame:
-    """Return the nodes in which bars are joined, and those of supports, at which bars are divided."""
+    """Return the nodes that join bars, and the nodes of supports, which divide bars."""
     joints = _Joints(axes)
     for support in supports:
         joints.support(support)
@@ -172,7 +172,7 @@ def bar_frame(axes: BarAxes, supports: Sequence[BarStation] = ()) -> BarFrame:
 
 
 class _Joints:
-    """Positions on bars, of which those that are joined belong to one cluster."""
+    """Positions on bars; joined ones belong to one cluster."""
 
     def __init__(self, axes: BarAxes) -> None:
         self.axes = axes
@@ -288,7 +288,7 @@ def _passed(axes: BarAxes, bar: int) -> list[int]:
 def _built(
     axes: BarAxes, joints: _Joints, capped: dict[int, float], crossings: tuple[tuple[int, int], ...]
 ) -> tuple[BarFrame, list[int]]:
-    """Return the frame of all clusters, and the cluster of each node."""
+    """Return the frame of the clusters, and the cluster of each node."""
     members: dict[int, list[int]] = {}
     for row in range(len(joints.stations)):
         members.setdefault(joints.root(row), []).append(row)
@@ -328,7 +328,7 @@ def _built(
 
 
 def _place(axes: BarAxes, joints: _Joints, rows: Sequence[int]) -> FloatArray:
-    """Return where a node lies: on the axis of its stoutest bar, where those of others come nearest to it in the mean.
+    """Return where a node lies: on the axis of its stoutest bar, where the other axes come nearest to it in the mean.
 
     A node on a support lies there, on the axis of the bar that it holds.
     """
@@ -377,7 +377,7 @@ def _length_m(frame: BarFrame, piece: BarPiece) -> float:
 
 
 def _tightest(axes: BarAxes, frame: BarFrame) -> tuple[BarPiece, float] | None:
-    """Return the piece of which too much lies within a node, the most of all, and how large nodes may be there, m."""
+    """Return the piece that lies deepest within a node, if too deep, and how large nodes may be there, m."""
     radii = _radii(axes, frame)
     shares = [
         (max(radii[node] for node in piece.nodes) / _length_m(frame, piece), row)

@@ -36,7 +36,7 @@ class SteelBar:
     ----------
     section : SteelSection
     begin_m, end_m : (3,) float
-        Ends of its axis: positions of its nodes, or beside them where it is joined eccentrically.
+        Ends of its axis: positions of its nodes, or off them where it is joined eccentrically.
     axes : (3, 3) float
         Along it and along y and z of its section, as columns.
     within_m : (2,) float
@@ -148,9 +148,8 @@ def node_radius_m(directions: FloatArray, outlines: list[FloatArray], to_axes_m:
     """Return how far from a node its bars begin, so that none lies in another.
 
     Bars (k,) leave it in directions (k, 3); `outlines` are the points (p, 3) of their sections about their axes, which
-    run beside the node, by `to_axes_m` (k, 3), where they do not meet in it. Two that are as wide, at an angle θ, meet
-    at half of their width by tan(θ / 2). A bar that goes on straight, or ends, begins at half of the distance of its
-    farthest edge.
+    miss the node by `to_axes_m` (k, 3). Two that are as wide, at an angle θ, meet at half of their width by tan(θ / 2).
+    A bar that goes on straight, or ends, begins at half of the distance of its farthest edge.
     """
     sizes = [float(np.sqrt(dot(points, points)).max()) for points in outlines]
     radius = 0.5 * max(sizes)
@@ -196,7 +195,7 @@ def joint_stiffness(bar: SteelBar, moduli: ElasticModuli) -> FloatArray:
 
 
 def in_other_axes(stiffness: FloatArray, rotations: FloatArray) -> FloatArray:
-    """Return stiffness (k, 6, 6) in other axes, whose columns (k, 3, 3) are given in those of the stiffness."""
+    """Return stiffness (k, 6, 6) in other axes, with columns (k, 3, 3) given in the axes of the stiffness."""
     both = np.zeros_like(stiffness)
     both[:, :3, :3] = both[:, 3:, 3:] = rotations
     return product(np.swapaxes(both, 1, 2), product(stiffness, both))

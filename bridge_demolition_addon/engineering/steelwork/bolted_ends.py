@@ -141,11 +141,11 @@ class BoltedEnd:
         return 1 - self.part.along
 
     def bending_to_axial_ratio(self, yield_pa: float, share: float) -> tuple[float, float]:
-        """Return its resistance in bending about y and z over that in axial force, by those of the bar.
+        """Return its share of the bar's resistance in bending about y and z over its share in axial force.
 
-        `share` is its resistance in axial force by that of the bar. In the plane of the gusset the pattern resists, and
-        the section between holes; out of it the end is taken to be as weak as along the bar. One bolt resists no
-        moment: the bar turns about it.
+        `share` is its resistance in axial force over the bar's. In the plane of the gusset the pattern resists, and the
+        section between holes; out of it the end is taken to be as weak as along the bar. One bolt resists no moment:
+        the bar turns about it.
         """
         bending_to_axial_ratio, axis = [1.0, 1.0], self.bending_axis
         plastic_nm = float(self.section.shape.plastic_moduli_m3[axis]) * yield_pa
@@ -241,14 +241,14 @@ def bolted_end(bolts: Bolts, section: SteelSection, grade: str) -> BoltedEnd | N
 
 
 def _towards_the_end(count: int, apart_m: float, end_m: float, hole_m: float) -> FloatArray:
-    """α_d of bolts one behind the other (k,), the last of which pushes towards the end."""
+    """α_d of bolts in line (k,); the last one pushes towards the end."""
     factors = np.full(count, apart_m / (3.0 * hole_m) - 0.25)
     factors[-1] = end_m / (3.0 * hole_m)
     return factors
 
 
 def _beside(count: int, apart_m: float, edge_m: float, hole_m: float, *, edges: int) -> FloatArray:
-    """k_1 of bolts side by side (k,), with edges beside the last of them or beside both outer ones."""
+    """k_1 of bolts side by side (k,), with an edge next to the last one or next to both outer ones."""
     inner = 1.4 * apart_m / hole_m - 1.7 if count > 1 else math.inf
     factors = np.full(count, min(inner, _MOST_BEARING))
     by_edge = min(2.8 * edge_m / hole_m - 1.7, _MOST_BEARING)

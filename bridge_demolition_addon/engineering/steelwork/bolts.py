@@ -85,7 +85,7 @@ class BoltPattern:
     gusset_m : float
         Thickness of the gusset; in double shear of each of two.
     gusset_grade : str or None
-        Its grade; None for that of the bar.
+        Its grade; None for the bar's.
     """
 
     rows: int
@@ -104,7 +104,7 @@ class BoltPattern:
 
     @property
     def polar_m2(self) -> float:
-        """Sum of the squares of the distances of all bolts from the middle."""
+        """Sum of the squares of the bolts' distances from the middle."""
         along = self.lines * self.pitch_m * self.pitch_m * self.rows * (self.rows * self.rows - 1)
         across = self.rows * self.gauge_m * self.gauge_m * self.lines * (self.lines * self.lines - 1)
         return (along + across) / 12.0
@@ -117,7 +117,7 @@ class Bolts:
     Attributes
     ----------
     lines : int
-        Lines along the bar in which they lie: so many holes are in a section across it.
+        Lines of bolts along the bar: the number of holes in a section across it.
     planes : int
         Planes of shear of each bolt.
     pattern : BoltPattern or None

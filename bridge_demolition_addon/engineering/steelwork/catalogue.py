@@ -68,7 +68,7 @@ _LONGEST_NAME = 60
 
 @cache
 def rolled_names() -> tuple[str, ...]:
-    """Return the names of all rolled sections of the table."""
+    """Return the names of the table's rolled sections."""
     return tuple(rolled_sizes_mm())
 
 
@@ -106,7 +106,7 @@ def _by_sizes(name: str, shape: str, sizes_mm: Sequence[float]) -> SteelSection:
 
 
 def _nearest(name: str) -> list[str]:
-    """Return rolled sections of nearly that name: of its series those of nearly its size."""
+    """Return rolled sections of nearly that name: the same series and nearly its size."""
     series, _, size = name.rpartition(" ")
     alike = [known for known in rolled_names() if known.startswith(f"{series} ")]
     if series and alike and size.isdigit():
@@ -116,7 +116,7 @@ def _nearest(name: str) -> list[str]:
 
 @cache
 def rolled_sizes_mm() -> dict[str, tuple[float, ...]]:
-    """Return height, width, web, flange and root radius of all rolled sections by name, in mm."""
+    """Return height, width, web, flange and root radius by name of the rolled section, in mm."""
     with (resources.files(__package__) / "data" / "rolled_i_sections.csv").open(encoding="utf-8") as file:
         _, *rows = csv.reader(file)
     return {name: tuple(map(float, sizes)) for name, *sizes in rows}

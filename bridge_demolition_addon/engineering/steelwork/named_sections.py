@@ -65,7 +65,7 @@ class PlacedSection:
 
 
 def sized_name(shape: str, sizes_m: Sequence[float]) -> str:
-    """Return the name of a shape of `catalogue.SHAPES` with sizes in m; that of the rolled section where one has these.
+    """Return the name of a shape of `catalogue.SHAPES` with sizes in m; the rolled section's name where one has these.
 
     Raises
     ------
@@ -180,7 +180,7 @@ def _tube(outer: FloatArray, inner: FloatArray) -> PlacedSection | None:
 
 
 def _hollow(outer: FloatArray, inner: FloatArray) -> PlacedSection | None:
-    """Box or rectangular tube: two rectangles about one middle, the corners of which may be rounded."""
+    """Box or rectangular tube: two rectangles about one middle, with square or rounded corners."""
     turn = _direction(outer)
     boxes, rounded_corners = [], False
     for ring in (outer, inner):

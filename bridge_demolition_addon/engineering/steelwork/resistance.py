@@ -2,7 +2,7 @@
 
 shear, which buckle where they are thin (EN 1993-1-5:2006, 5.2 and 5.3), and lateral torsional buckling.
 
-No partial factors: γ_M0 = γ_M1 = 1. Of shear, the contribution of the web alone, without that of the flanges.
+No partial factors: γ_M0 = γ_M1 = 1. Of shear, the contribution of the web alone, without the flanges.
 """
 
 from __future__ import annotations
@@ -87,10 +87,10 @@ def plastic_second_moments(
 ) -> FloatArray:
     """Return second moments (2, 2) of the rectangle that stands for a section in what breaks it.
 
-    `bending_to_axial_ratio` is its resistance in bending about y and z over that in axial force, by those of the
-    section. The rectangle has the area of the section, and elastic moduli as large as the plastic ones of that:
-    W² = I A / 3 for any rectangle. So axial force and bending about both axes together use N / N_pl + M_y / M_pl,y +
-    M_z / M_pl,z, the linear rule of EN 1993-1-1:2005, 6.2.1 (7).
+    `bending_to_axial_ratio` is its share of the section's resistance in bending about y and z over its share in axial
+    force. The rectangle has the area of the section, and elastic moduli as large as the plastic ones of that: W² = I A
+    / 3 for any rectangle. So axial force and bending about both axes together use N / N_pl + M_y / M_pl,y + M_z /
+    M_pl,z, the linear rule of EN 1993-1-1:2005, 6.2.1 (7).
     """
     moduli = section.shape.plastic_moduli_m3 * np.array(bending_to_axial_ratio)
     return np.asarray(np.diag(3.0 * np.square(moduli) / section.area_m2))

@@ -1,7 +1,7 @@
 """Steel sections: rolled ones by sizes and root radius, and plates made to an I, a box, a tube, an angle and more.
 
 y is level and z upright in a section that stands as drawings show it, so that bending about y is about the strong axis
-of an I-section. Torsion is that of Saint-Venant; warping, and the distance of the shear centre from the middle of open
+of an I-section. Torsion is Saint-Venant's; warping, and the distance of the shear centre from the middle of open
 sections, are left out. Angles, channels and T-sections bend about their own y and z, not about principal axes, in what
 is said of their moments.
 """
@@ -75,7 +75,7 @@ class SteelSection:
     buckling_curves : tuple of str
         Curves about y and z, up to S420: EN 1993-1-1:2005, table 6.2.
     flanges_apart_m : float or None
-        Distance between the middles of two flanges that are alike; None of all but such I-sections.
+        Distance between the middles of two flanges that are alike; None for other sections.
     is_rolled : bool
         Whether it is of a rolled I-section.
     web : Web or None
@@ -122,8 +122,8 @@ class SteelSection:
 def rolled_i(name: str, height: float, width: float, web: float, flange: float, radius: float) -> SteelSection:
     """Return a rolled I-section with roots rounded by a radius, all in m.
 
-    Torsion constant and plastic shear area are those of the tables of rolled sections (ArcelorMittal, Sections and
-    Merchant Bars, notations and formulae).
+    Torsion constant and plastic shear area as in the tables of rolled sections (ArcelorMittal, Sections and Merchant
+    Bars, notations and formulae).
     """
     inner = (height - 2.0 * flange) / 2.0
     roots = [(1, -1), (1, 1), (-1, 1), (-1, -1)]
@@ -195,7 +195,7 @@ def plate_girder(
 def hollow_rectangle(name: str, height: float, width: float, plate: float) -> SteelSection:
     """Return a rectangular tube with rounded corners, hot finished, by sizes in m.
 
-    Corners have radii of 1.5 and 1.0 times the thickness, and the torsion constant is that of EN 10210-2:2006, A.3.
+    Corners have radii of 1.5 and 1.0 times the thickness, and the torsion constant follows EN 10210-2:2006, A.3.
     """
     outer, inner = 1.5 * plate, 1.0 * plate
     around = [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)]

@@ -123,7 +123,7 @@ def limited(pairs: IntArray, distances: FloatArray, limit_per_shard: int, shard_
 def foundations(
     shards: Sequence[TriangleMesh], heights_at: Callable[[FloatArray], FloatArray] | None = None
 ) -> Connections:
-    """Connections to the ground of all shards, before gaps are made, in the middle of the face that they stand on.
+    """Connections of shards to the ground, before gaps are made, in the middle of the face that they stand on.
 
     `heights_at` gives heights (k,) of the ground at positions (k, 2), nan beyond it; the ground is flat at 0 without
     it.
@@ -168,7 +168,7 @@ def _standing_face(
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Corners:
-    """Vertices (v, 3) of all shards, where those of each begin: `bounds` (n + 1,), and the shards' boxes (n, 3)."""
+    """The shards' vertices (v, 3), where each shard begins: `bounds` (n + 1,), and the shards' boxes (n, 3)."""
 
     vertices: FloatArray
     bounds: IntArray
@@ -231,7 +231,7 @@ def second_moments(
     """Second moments of area (m, 2, 2), m⁴, of faces about their own centres, by the first shard (m,) of each.
 
     About the section's y and z axes (`section_forces.section_axes`) they are ∫ z² dA and ∫ y² dA on the diagonal, and
-    -∫ y z dA beside it. Normals (m, 3) point out of the first shard; a face without area has no moments.
+    -∫ y z dA off it. Normals (m, 3) point out of the first shard; a face without area has no moments.
 
     The face is looked for in the mesh of its first shard: all triangles in its plane that look its way. Where these are
     not just the face, as on the underside of a deck that rests on a smaller pier cap, it is taken for a square.
@@ -254,7 +254,7 @@ def second_moments(
 def triangles_in_faces(
     shards: Sequence[TriangleMesh], centres: FloatArray, normals: FloatArray
 ) -> tuple[IntArray, FloatArray]:
-    """Face (t,), in ascending order, and corners (t, 3, 2) of all triangles in the planes of k faces.
+    """Face (t,), in ascending order, and corners (t, 3, 2) of the triangles in the planes of k faces.
 
     Corners are in the face's own y and z, about its centre. There is a first shard for each face.
     """

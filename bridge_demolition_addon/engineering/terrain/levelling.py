@@ -38,7 +38,7 @@ def levelled(
     """Return a grid that is level under feet and inside no member, its nodes (s, s) that matter, and the changes.
 
     A member stands on the ground where that is as high as the middle of its lowest face. There the ground is filled up
-    or dug away to the face. Wherever else the ground would go into a member, up to a cell beside it, it is dug away.
+    or dug away to the face. Wherever else the ground would go into a member, up to a cell next to it, it is dug away.
 
     `grid` has no gaps; members are names and solids; `heights_at` gives heights (n,) of the terrain at positions (n,
     2), nan where it has no data.
@@ -130,7 +130,7 @@ def _beside(low: FloatArray) -> FloatArray:
 
 
 def _grown(chosen: BoolArray) -> FloatArray:
-    """Nodes (s, s) that are chosen, or beside one that is."""
+    """Chosen nodes (s, s) and their neighbours."""
     return np.isfinite(_beside(np.where(chosen, 0.0, np.inf)))
 
 

@@ -26,7 +26,7 @@ class Raster:
 
     @property
     def points(self) -> FloatArray:
-        """Positions (n, 3) of all heights that are known."""
+        """Positions (n, 3) of the known heights."""
         rows, columns = np.nonzero(np.isfinite(self.heights))
         x, y = self.first[0] + self.steps[0] * columns, self.first[1] + self.steps[1] * rows
         return np.column_stack((x, y, self.heights[rows, columns]))
@@ -70,8 +70,8 @@ def nearest_known(known: BoolArray) -> tuple[IntArray, IntArray]:
 def _nearest_columns(squares: IntArray) -> IntArray:
     """Return the column (r, c) of the node nearest to each, by squared distances (r, c) within their own columns.
 
-    In a row they ascend, so that those of every second node bound those between (A. Aggarwal et al., 1987, Geometric
-    applications of a matrix-searching algorithm, Algorithmica 2, 195-208).
+    In a row they ascend, so that the columns of every second node bound the columns between (A. Aggarwal et al., 1987,
+    Geometric applications of a matrix-searching algorithm, Algorithmica 2, 195-208).
     """
     rows, columns = squares.shape
     step = 1 << columns.bit_length()

@@ -102,7 +102,7 @@ class _Cells:
 
 
 def _heights_in(corners: FloatArray, positions: FloatArray) -> FloatArray:
-    """Height (n,) of each triangle (n, 3, 3) at its position (n, 2); nan where that is beside it."""
+    """Height (n,) of each triangle (n, 3, 3) at its position (n, 2); nan outside it."""
     origin = corners[:, 0]
     first, second = corners[:, 1] - origin, corners[:, 2] - origin
     offset = positions - origin[:, :2]

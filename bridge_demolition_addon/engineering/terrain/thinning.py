@@ -1,7 +1,7 @@
 """A square grid of heights as few triangles: right-angled ones, halved where the ground is uneven.
 
 W. Evans, D. Kirkpatrick, G. Townsend (2001), *Right-triangulated irregular networks*, Algorithmica 30(2), 264-286. A
-triangle is halved at the middle of its longest side. Where a middle is needed, so are the middles of all triangles that
+triangle is halved at the middle of its longest side. Where a middle is needed, so is the middle of each triangle that
 it was part of, so that no two triangles meet at a gap.
 """
 
@@ -33,7 +33,7 @@ class Grid:
         return len(self.heights)
 
     def places(self) -> FloatArray:
-        """Positions (s², 2) of all nodes, row by row, m."""
+        """Positions (s², 2) of the nodes, row by row, m."""
         numbers = np.arange(self.size)
         x, y = np.meshgrid(self.low[0] + self.step_m * numbers, self.low[1] + self.step_m * numbers)
         return np.column_stack((x.ravel(), y.ravel()))

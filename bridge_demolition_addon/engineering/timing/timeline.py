@@ -44,7 +44,7 @@ class TimeStep:
     def substeps_within(self, farthest_m: float, speed_m_s: float, acceleration_m_s2: float) -> int:
         """Return the sub-steps of a frame so that a body goes no farther in one, at most `MOST_SUBSTEPS`.
 
-        Speed is that of the body as the frame begins, which may grow by the acceleration.
+        Speed as the frame begins; it may grow by the acceleration.
         """
         return int(substeps_within(self.frame_s, self.substeps_per_frame, farthest_m, speed_m_s, acceleration_m_s2))
 
