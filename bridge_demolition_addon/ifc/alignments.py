@@ -44,7 +44,7 @@ class Curve:
 
 
 def curve_of(entity: Any, unit_m: float, deepest: int = _DEEPEST) -> Curve:
-    """Return a curve of a file whose unit of length is so many metres; a `GeometryError` names a kind not known."""
+    """Return a curve of a file with its unit of length in metres; a `GeometryError` names a kind not known."""
     if deepest <= 0:
         raise GeometryError("runs along a curve that lies on itself")
     if entity.is_a("IfcPolyline") or entity.is_a("IfcIndexedPolyCurve"):
@@ -225,8 +225,8 @@ def _heading_that_meets(
 ) -> float:
     """Return the direction in which a vertical segment begins, rad.
 
-    By the standard it is that of its placement. Some programs leave the parabola's own slope in its coefficients, and
-    its placement level: that counts where the segment then ends where the next one begins.
+    By the standard it is the heading of its placement. Some programs leave the parabola's own slope in its
+    coefficients, and its placement level: that counts where the segment then ends where the next one begins.
     """
     parent = part.ParentCurve
     if ahead is None or not parent.is_a("IfcPolynomialCurve"):
@@ -256,7 +256,7 @@ def _on_vertical(part: Any, x: float, height: float, heading: float, unit_m: flo
 
 
 def _offset(entity: Any, unit_m: float, deepest: int) -> Curve:
-    """Return a curve beside or above another one, whose distances are counted from its first offset on."""
+    """Return a curve offset from another one, whose distances are counted from its first offset on."""
     basis = curve_of(entity.BasisCurve, unit_m, deepest - 1)
     places = np.array([place_along(point, unit_m) for point in entity.OffsetValues])
     order = np.argsort(places[:, 0], kind="stable")

@@ -66,7 +66,7 @@ class Assembly:
     Attributes
     ----------
     outcomes
-        Of all elements, by their numbers in the file, and behind them, with negative numbers, of what was added.
+        By the elements' numbers in the file, then, with negative numbers, of what was added.
     notes
         What was assumed and mended.
     added
@@ -98,7 +98,7 @@ class Assembly:
     _names_above: list[str] = field(default_factory=list)
 
     def add_members(self, solids: Mapping[int, TriangleMesh]) -> None:
-        """Take in all elements, of which those with solids become members."""
+        """Take in all elements: elements with solids become members."""
         for element in self.elements:
             number = element.entity.id()
             if not element.is_member:
@@ -189,7 +189,7 @@ class Assembly:
         return {number: self.outcomes[number] for number in (*first, *rest)}
 
     def drop_consumed(self) -> None:
-        """Leave out members of which nothing is left once those before them are cut off."""
+        """Leave out members that the ones before them cut away whole."""
         taken: list[TriangleMesh] = []
         waiting = deque(self.ordered())
         while waiting:
@@ -410,7 +410,7 @@ class Assembly:
         self._unheld += [member.name for member in chosen]
 
     def bearing_tables(self) -> BearingTables:
-        """Return the tables of all bearings."""
+        """Return the tables of the bearings."""
         tables = bearing_tables(self._bearings, self._names_above)
         present = {member.name for _, member in self.members()}
         more = (*self._more_bearings, *self._on_pads)

@@ -66,7 +66,7 @@ def bar_layers(
     """Return layers of the bars of a file in members, which are given by the numbers of their elements, and notes.
 
     A bar lies in the member that it is part of in the file, or else in the one around its middle. The area of a layer
-    is that of its bars by their length, over the length of the member along them: laps count as often as they are.
+    is the volume of its bars over the length of the member along them: laps count as often as they are.
     """
     found: dict[str, list[_Bar]] = {}
     by_name = {member.name: member for member in members.values()}

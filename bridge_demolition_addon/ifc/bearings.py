@@ -138,7 +138,7 @@ def _nearest_above(
 def with_one_fixed(
     found: Sequence[tuple[BearingElement, str]], along_m: Mapping[str, float]
 ) -> list[tuple[BearingElement, str]]:
-    """Return bearings of which those at one support alone are pinned, where the file says nothing of any of them.
+    """Pin the bearings at one support alone where the file says nothing of any bearing.
 
     A bridge that is pinned at all its supports would be an arch between them. `along_m` is where the members below them
     are along the road; the first of them keeps its bearings, and all others let the bridge move along the road.
@@ -207,7 +207,7 @@ class BearingTables:
         return {name for pair in pairs for name in pair}
 
     def without(self, above: Collection[str]) -> BearingTables:
-        """Return the tables without those of members that lie on bearings, by their names."""
+        """Return the tables without members that lie on bearings, by their names."""
         bearings = tuple(table for table in self.bearings if table.members[0] not in above)
         connections = tuple(table for table in self.connections if table.members[0] not in above)
         return BearingTables(bearings, connections, self.notes)

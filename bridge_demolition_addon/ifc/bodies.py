@@ -83,7 +83,7 @@ def bodies_of(
 
 
 def _check_all(source: IfcSource, elements: Sequence[Element], missing: Mapping[int, str]) -> None:
-    """Refuse a file with elements that have no body, and say why of all of them."""
+    """Refuse a file with elements that have no body, and say why for each."""
     wrong = {element.title: missing[number] for element in elements if (number := element.entity.id()) in missing}
     failed = [title for title, why in wrong.items() if why == FAILED]
     others = [f"{title}: {why.rstrip('.')}." for title, why in wrong.items() if why != FAILED]

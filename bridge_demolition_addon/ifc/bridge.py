@@ -72,8 +72,8 @@ _STANDING = (*STANDING, "footing")
 class ImportedBridge:
     """A bridge from an IFC file.
 
-    The meshes have the paths of the scenario, relative to its folder. The outcomes are those of all elements of the
-    file, in its order. The ground has its height in the file; the sources say where ground and site are from.
+    The meshes have the paths of the scenario, relative to its folder. The outcomes have one entry for each element of
+    the file, in its order. The ground has its height in the file; the sources say where ground and site are from.
     """
 
     scenario: Scenario
@@ -398,7 +398,7 @@ _CURVED = 6.0
 
 
 def fracture_of(members: Sequence[Member], held: Collection[str], shards: int) -> FractureSettings:
-    """Return how members are cut into about so many shards; those that are `held` never move, and need no more."""
+    """Return how members are cut into about a number of shards; those that are `held` never move, and need no more."""
     volumes = np.array([member.volume_m3 for member in members])
     by_volume = shards_per_member(volumes, max(shards, len(members)))
     rules, more = [], 0

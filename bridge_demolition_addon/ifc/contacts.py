@@ -18,7 +18,7 @@ NEAR_M = 0.5
 
 
 class NearbyMembers:
-    """Solids of members, any of which may be replaced, and what is near each of them."""
+    """Solids of members, each replaceable, and what is near each."""
 
     def __init__(self, solids: Sequence[TriangleMesh]) -> None:
         self._solids = list(solids)
@@ -30,7 +30,7 @@ class NearbyMembers:
         return self._solids[index]
 
     def replace(self, index: int, solid: TriangleMesh) -> None:
-        """Take another solid as that of a member."""
+        """Replace the solid of a member."""
         self._solids[index], self._bounds[index] = solid, solid.bounds
         self._manifolds.pop(index, None)
 
@@ -48,7 +48,7 @@ class NearbyMembers:
     def reached(self, solid: TriangleMesh, shift_m: float, but: int | None = None) -> dict[int, float]:
         """Return which members a solid reaches into when it is moved up by so much, and the volume of each, m³.
 
-        One of them may be left out, such as that of the solid itself.
+        One of them may be left out, such as the solid itself.
         """
         moved = to_manifold(solid).translate((0.0, 0.0, shift_m))
         lowest, highest = solid.bounds + np.array((0.0, 0.0, shift_m))

@@ -59,7 +59,7 @@ class MaterialRow(Table):
     def with_compression(self, name: str, compression_n_mm2: float) -> Self:
         """Return the row with another strength in compression, under the name of the material.
 
-        The modulus of elasticity is that of EN 1992-1-1:2004, table 3.1, by the mean strength, 8 N/mm² above the
+        The modulus of elasticity follows EN 1992-1-1:2004, table 3.1, by the mean strength, 8 N/mm² above the
         characteristic one. All else comes from bars, or is low anyway.
         """
         strength = MATERIALS[given(self.strength)]
@@ -95,7 +95,7 @@ class MaterialTable(Table):
 
 
 def material_table(path: Path | None = None) -> MaterialTable:
-    """Return the user's table of materials, or that of the add-on."""
+    """Return the user's table of materials, or the add-on's."""
     try:
         if path is None:
             return table_of_document(MaterialTable, toml_document(_text()))

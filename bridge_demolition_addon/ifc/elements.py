@@ -1,4 +1,4 @@
-"""The elements of an IFC file: which of them are members, and of which kind."""
+"""The elements of an IFC file: which are members, and their kinds."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ _DEEPEST = 100
 class Element:
     """An element of an IFC file, an `ifcopenshell.entity_instance`, with its kind or why it is left out.
 
-    `wholes` are the numbers in the file of all that it is in, the smallest first.
+    `wholes` are the numbers in the file of the wholes around it, the smallest first.
     """
 
     entity: Any
@@ -113,7 +113,7 @@ def _named(elements: Sequence[Element]) -> tuple[Element, ...]:
 
 
 def _of_whole(pattern: str, elements: Sequence[Element]) -> str:
-    """Return a pattern, or the name of the element of which it names a part that is a member or bar of its own."""
+    """Return a pattern, or the name of the element if it names a part that is a member or bar of its own."""
     is_known = any(matches(pattern, element.names) for element in elements)
     return pattern if is_known else _PART.sub("", pattern)
 

@@ -1,4 +1,4 @@
-"""The folder of an imported bridge: its scenario, a mesh for each element, and a table of all elements."""
+"""The folder of an imported bridge: its scenario, a mesh for each element, and a table of the elements."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ _COLUMNS = (
 
 
 def folder_beside(path: Path) -> Path:
-    """Return a folder beside the IFC file that is not there yet."""
+    """Return a new folder next to the IFC file."""
     folders = (path.with_name(f"{path.stem}_scenario{ending}") for ending in ("", *(f"_{n}" for n in range(2, 10_000))))
     return next(folder for folder in folders if not folder.exists())
 
@@ -171,7 +171,7 @@ def _of_cutting(notes: Sequence[str]) -> Iterator[str]:
 
 
 def _by_file(outcomes: Sequence[Outcome]) -> Iterator[str]:
-    """Yield volume and mass of the members whose program says them, beside these."""
+    """Yield volume and mass of the members whose program says them, with the program's values."""
     known = [outcome for outcome in outcomes if outcome.became in (MEMBER, BAR) and outcome.member]
     for word, text, of_file, of_member in (
         ("volume", volume_text, "file_volume_m3", "volume_m3"),

@@ -73,7 +73,7 @@ def cut_by(solid: TriangleMesh, others: Sequence[TriangleMesh]) -> TriangleMesh:
 
 
 def closed_gaps(members: Sequence[Member], gap_m: float, bars: Collection[str] = ()) -> tuple[list[Member], list[str]]:
-    """Return members of which those that nearly lie on another one touch it with their whole face, and notes on them.
+    """Close small gaps between members, so that whole faces touch; return the members and notes on them.
 
     A pier or cap goes on upwards to what carries the road, and else downwards to what it stands on; a girder goes on
     upwards to its deck. Bars of steel, by their names, do that alone.
@@ -117,7 +117,7 @@ def close_small_gaps(
 ) -> tuple[list[Member], list[str]]:
     """Return members moved against what they hardly touch, and notes on them.
 
-    Such as an edge beam along a curved deck: both have chords, and meet at some corners only. Those of names that are
+    Such as an edge beam along a curved deck: both have chords, and meet at some corners only. Members named in
     `staying` are not moved.
     """
     done, notes = list(members), []
@@ -186,6 +186,6 @@ def keeps_volume_when_cut(solid: TriangleMesh) -> bool:
 
 
 def largest_body(solid: TriangleMesh) -> TriangleMesh:
-    """Return the largest body of a solid: what is cut off it is a lip beside what it was brought to."""
+    """Return the largest body of a solid: what is cut off it is a lip over the edge of what it was brought to."""
     pieces = to_manifold(solid).decompose()
     return solid if len(pieces) < 2 else from_manifold(max(pieces, key=lambda piece: piece.volume()))

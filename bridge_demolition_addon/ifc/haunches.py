@@ -64,7 +64,7 @@ class _Gap:
 
 
 def with_haunches(members: Sequence[Member]) -> tuple[list[Member], list[str]]:
-    """Return members of which girders go up to the deck that lies over them, and notes on them."""
+    """Bring girders up to the deck that lies over them; return the members and notes on them."""
     done, notes = list(members), []
     decks = [member for member in members if member.kind == "deck"]
     for index, member in enumerate(members):
@@ -157,7 +157,7 @@ def _gap(girder: TriangleMesh, deck: TriangleMesh) -> _Gap | None:
 
 
 def _top_in_plan(girder: TriangleMesh, upper: Surface, lower: Surface) -> CrossSection:
-    """Return the plan of the faces of a girder that look up at a deck near them: not those of a lower flange."""
+    """Return the plan of the faces of a girder that look up at a deck near them: a lower flange does not count."""
     corners = girder.corners
     areas, normals = triangle_areas_and_normals(corners)
     middles = corners.mean(axis=1)

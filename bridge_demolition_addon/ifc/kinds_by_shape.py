@@ -34,7 +34,7 @@ _LARGE = 0.3
 def with_kinds_by_shape(
     source: IfcSource, elements: Sequence[Element], kept: KeptShapes
 ) -> tuple[tuple[Element, ...], tuple[str, ...]]:
-    """Return elements of which those that nothing is known of have kinds by their shape, and a note on them.
+    """Give elements of unknown kind a kind by their shape; return the elements and a note on them.
 
     This is done where nothing else carries the road, and below a deck for what it lacks: girders, or all supports.
     """

@@ -1,4 +1,4 @@
-"""A unit of length that the file cannot mean: with it no deck or girder would be as long as those of a bridge are."""
+"""A unit of length that the file cannot mean: with it no deck or girder would have the length of a bridge's."""
 
 from __future__ import annotations
 

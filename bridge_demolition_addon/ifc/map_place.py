@@ -31,7 +31,7 @@ _HALF_ZONE_M, _POLE_M = 400_000.0, 10_000_000.0
 def on_map(source: IfcSource, points_m: np.ndarray) -> np.ndarray | None:
     """Return positions (n, 3) of a file in its map, m; None where it has no map conversion.
 
-    A scale that is far from that of the units, as some programs write it, does not count.
+    A scale far from the units' own, as some programs write it, does not count.
     """
     conversion = library("util.geolocation").get_helmert_transformation_parameters(source.model)
     if conversion is None:
@@ -132,7 +132,7 @@ def _reference_system(model: Any) -> str:
 
 
 def _map_unit(source: IfcSource) -> float:
-    """Return the metres in the map's unit; that of the file where the map gives none."""
+    """Return the metres in the map's unit; the file's unit where the map gives none."""
     if source.model.schema != "IFC2X3":
         for system in source.model.by_type("IfcProjectedCRS"):
             if system.MapUnit:
@@ -141,7 +141,7 @@ def _map_unit(source: IfcSource) -> float:
 
 
 def _by_site(source: IfcSource, placement: Placement) -> Site | None:
-    """Return the site by `IfcSite`, whose latitude and longitude are those of the origin of its own placement."""
+    """Return the site by `IfcSite`, with latitude and longitude at the origin of its own placement."""
     for site in source.model.by_type("IfcSite"):
         if not site.RefLatitude or not site.RefLongitude:
             continue
@@ -164,7 +164,7 @@ def _by_site(source: IfcSource, placement: Placement) -> Site | None:
 
 
 def _degrees(parts: tuple[int, ...]) -> float:
-    """Return an angle of degrees, minutes, seconds and millionths of a second, all of which have its sign."""
+    """Return an angle of degrees, minutes, seconds and millionths of a second, each with its sign."""
     degrees, minutes, seconds, millionths = (*parts, 0)[:4]
     return degrees + minutes / 60.0 + (seconds + millionths * 1e-6) / 3600.0
 

@@ -305,7 +305,7 @@ def _bridge_part(_: _Statements, values: list[str]) -> str:
 
 
 def _facility_part(_: _Statements, values: list[str]) -> str:
-    """Write a part that a release candidate has as that of any facility, with its type in one of its attributes."""
+    """Write a part of a release candidate as a part of any facility, with its type in one of its attributes."""
     kind = _BRIDGE_PART.fullmatch(values[9]) if len(values) == 11 else None
     if kind is None:
         return f"IFCFACILITYPART({','.join(values)})"

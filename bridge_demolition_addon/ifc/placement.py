@@ -23,7 +23,7 @@ _QUARTERS = {0: ((1.0, 0.0), (0.0, 1.0)), 1: ((0.0, 1.0), (-1.0, 0.0)), -1: ((0.
 class Placement:
     """Transformation of positions in a file to positions in the scenario.
 
-    The angle is that of the road in the file's plan, anticlockwise from its x axis, from -π/2 to π/2. The point (3,) of
+    The road's angle in the file's plan is counted anticlockwise from its x axis, from -π/2 to π/2. The point (3,) of
     the file is the origin of the scenario.
     """
 
@@ -32,7 +32,7 @@ class Placement:
 
     @property
     def turn(self) -> np.ndarray:
-        """Matrix (2, 2) that turns plan vectors of the file into those of the scenario."""
+        """Matrix (2, 2) that turns plan vectors of the file into plan vectors of the scenario."""
         quarters = round(self.angle_rad / (math.pi / 2.0))
         if abs(self.angle_rad - quarters * math.pi / 2.0) < _ON_AXIS_RAD:
             return np.array(_QUARTERS[quarters])

@@ -31,7 +31,7 @@ _SHARPEST = 0.2
 def outline_of(profile: Any, unit_m: float, angle_rad: float) -> np.ndarray:
     """Return the corners (k, 2) of a profile, anticlockwise, m; a `GeometryError` names a kind not known.
 
-    Lengths and angles in the file are in units of so many metres and radians.
+    The file's units of length and angle are given in metres and radians.
     """
     if profile.is_a("IfcRectangleProfileDef"):
         x, y = profile.XDim * unit_m / 2.0, profile.YDim * unit_m / 2.0
@@ -108,7 +108,7 @@ def _angle(trims: Any, circle: Any, centre: np.ndarray, angle_rad: float) -> flo
 
 
 def _sheet(line: np.ndarray, thickness_m: float) -> np.ndarray:
-    """Return the outline of a sheet of one thickness, of which a line (n, 2) is the middle."""
+    """Return the outline of a sheet of one thickness around its middle line (n, 2)."""
     if len(line) < 2:
         raise GeometryError("has a sheet along a line of no length")
     ways = unit(np.diff(line, axis=0))
@@ -138,7 +138,7 @@ class _Plane:
 def section_of_profile(profile: Any, unit_m: float) -> PlacedSection | None:
     """Return the section of a profile by its sizes; None for one that has an outline alone.
 
-    Lengths in the file are in units of so many metres.
+    The file's unit of length is given in metres.
 
     Raises
     ------

@@ -27,13 +27,13 @@ class ImportSettings:
     Attributes
     ----------
     materials
-        Table of materials; that of the add-on unless given.
+        Table of materials; the add-on's unless given.
     material
         Name in the table of the material of elements without one.
     unit
-        Unit of length, one of `UNITS`, in place of that of the file.
+        Unit of length, one of `UNITS`, in place of the file's.
     ground_m
-        Height of the ground in the file; that of the lowest underside unless given.
+        Height of the ground in the file; the lowest underside's unless given.
     without
         Names, classes, kinds or GlobalIds of elements that are left out, with ``*`` for anything.
     materials_of

@@ -20,7 +20,7 @@ _CLASSES = ("IfcBridge", "IfcBuilding")
 
 @dataclass(frozen=True, slots=True)
 class BridgeInFile:
-    """A bridge of a file: its name, no two of which are the same, its GlobalId and how many members it has."""
+    """A bridge of a file: its unique name, its GlobalId and how many members it has."""
 
     name: str
     global_id: str

@@ -106,7 +106,7 @@ def shapes_of(source: IfcSource, elements: Iterable[Element], kept: KeptShapes) 
 
 
 def _own_or_none(source: IfcSource, entity: Any) -> TriangleMesh | None:
-    """Return a body that is worked out here, as the geometry library leaves those of its kind unsound."""
+    """Return a body that is worked out here, as the geometry library leaves its kind unsound."""
     for made in (swept_mesh, extruded_mesh):
         with suppress(GeometryError):  # it is of another kind
             return made(source, entity)
@@ -249,13 +249,13 @@ def _without_heights(curve: Curve, profiles: list[np.ndarray], places: list[np.n
 
 
 def _ring(curve: Curve, profile: np.ndarray, place: np.ndarray) -> np.ndarray:
-    """Return the corners (k, 3) of a section that is so far along, beside and above a curve, m."""
+    """Return the corners (k, 3) of a section at a distance along, across and above a curve, m."""
     frame, corners = curve.at(float(place[0])), profile + place[1:]
     return frame.point + corners[:, :1] * frame.left + corners[:, 1:] * frame.up
 
 
 def _loft(rings: np.ndarray, first: np.ndarray, last: np.ndarray) -> TriangleMesh:
-    """Return the closed mesh over rings (r, k, 3), each of which goes on to the next, with lids at both ends."""
+    """Return the closed mesh over consecutive rings (r, k, 3), with lids at both ends."""
     count, corners = rings.shape[:2]
     here = np.arange(corners)
     ahead = np.roll(here, -1)

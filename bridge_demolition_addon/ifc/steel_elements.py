@@ -250,7 +250,7 @@ def _ends(
 
 
 def _over(placed: PlacedSection, rings: Sequence[np.ndarray]) -> PlacedSection:
-    """Return a section whose box has its middle where that of an outline has its own."""
+    """Return a section moved so that its box has the same middle as an outline's box."""
     points, own = np.concatenate(rings), _corners(placed)
     middle, own_middle = ((low + high) / 2.0 for low, high in (_box(points), _box(own)))
     return replace(placed, centre_m=placed.centre_m + middle - own_middle)
@@ -269,7 +269,7 @@ def _check_fit(placed: PlacedSection, rings: Sequence[np.ndarray], area_m2: floa
 
 
 def _check_straight(placed: PlacedSection, local_m: np.ndarray, size_m: float) -> None:
-    """Refuse a body with vertices (p, 3) beside the section that it has in its middle: curved, or of several parts."""
+    """Refuse a body with vertices (p, 3) outside the section that it has in its middle: curved, or of several parts."""
     beyond = np.abs(np.array(_box(local_m[:, :2])) - np.array(_box(_corners(placed)))).max()
     if float(beyond) > max(_BESIDE_M, _BESIDE * size_m):
         raise GeometryError(f"is not straight, or reaches {1e3 * float(beyond):.0f} mm beside {placed.name}")

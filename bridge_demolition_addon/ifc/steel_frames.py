@@ -1,6 +1,6 @@
 """Bars of steel in an IFC file as the steelwork of a scenario: nodes where they meet, on supports.
 
-Bars keep their axes. A node lies where those of its bars meet; one that runs beside it has eccentricities.
+Bars keep their axes. A node lies where the axes of its bars meet; an axis that misses it has eccentricities.
 """
 
 from __future__ import annotations
@@ -234,7 +234,7 @@ def _nearest(begins: np.ndarray, ends: np.ndarray, point: np.ndarray) -> np.ndar
 
 
 def cut_out(assembly: Assembly, frame: SteelFrame) -> None:
-    """Cut bars and nodes out of all other members: nothing is cut off steelwork as a scenario is read."""
+    """Cut bars and nodes out of the other members: nothing is cut off steelwork as a scenario is read."""
     boxes = np.array([solid.bounds for solid in frame.solids])
     for number, outcome in list(assembly.outcomes.items()):
         if outcome.member is None or outcome.became in (BAR, CONNECTION):
@@ -263,7 +263,7 @@ def _station(bar: SteelElement, row: int, support: BarSupport, within_m: float) 
 
 
 def _density_kg_m3(assembly: Assembly, numbers: Sequence[int]) -> float:
-    """Return the density of all bars together, by their masses and volumes."""
+    """Return the mean density of the bars, by their masses and volumes."""
     members = [given(assembly.outcomes[number].member) for number in numbers]
     mass = math.fsum(member.mass_kg for member in members)
     return float(f"{mass / math.fsum(member.volume_m3 for member in members):.6g}")

@@ -30,7 +30,7 @@ _NAMED = 5
 @dataclass(frozen=True, slots=True)
 class SaidFrame:
     """A frame of bars, and what its rows are: elements by their numbers, bars and names, names of its nodes, and which
-    of these have supports; beside that the plates at its joints."""
+    of these have supports; with them the plates at its joints."""
 
     numbers: Sequence[int]
     bars: Sequence[SteelElement]
@@ -43,7 +43,7 @@ class SaidFrame:
 
 
 def steel_notes(assembly: Assembly, said: SaidFrame) -> Iterator[str]:
-    """Yield the lines of the report on bars: sections, nodes, how far axes run beside, supports, what is amiss."""
+    """Yield the lines of the report on bars: sections, nodes, eccentricities of axes, supports, what is amiss."""
     bars, frame, names, plates = said.bars, said.frame, said.names, said.plates
     mass_kg = math.fsum(given(assembly.outcomes[number].member).mass_kg for number in said.numbers)
     sections = ", ".join(f"{name} ({found})" for name, found in Counter(bar.section for bar in bars).most_common())

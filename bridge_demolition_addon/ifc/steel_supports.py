@@ -68,7 +68,7 @@ def bar_supports(assembly: Assembly, bars: Mapping[int, SteelElement], gap_m: fl
     """Return the supports of bars on all that they touch, up to a gap.
 
     Those that lie on members without bearings are pinned on the first along the road, and free to move along it on all
-    others. Those that stand, or end beside a member, are fixed.
+    others. Bars that stand, or end at the side of a member, are fixed.
     """
     members = assembly.members()
     others = [(number, member) for number, member in members if number not in bars]
@@ -151,7 +151,7 @@ def _on_bearing(assembly: Assembly, number: int, member: Member, below: str, tab
 
 
 def _touching(bar: SteelElement, member: Member, other: Member, gap_m: float) -> BarSupport | None:
-    """Return the support of a bar on a member; None where that lies on the bar, or beside it between its ends."""
+    """Return the support of a bar on a member; None where that lies on the bar, or at its side between its ends."""
     reach = gap_m + _REACH_M
     solid, theirs = to_manifold(member.solid), to_manifold(other.solid)
     common = solid ^ theirs
@@ -193,7 +193,7 @@ def _let_in(bar: SteelElement, common: Manifold, end: int, held_by: str) -> BarS
 
 
 def _with_one_pinned(found: Sequence[BarSupport]) -> list[BarSupport]:
-    """Return supports of which those whose kind is assumed are pinned on what lies first along the road."""
+    """Pin the supports of assumed kind on what lies first along the road."""
     assumed = [support for support in found if support.is_assumed]
     if not assumed:
         return list(found)

@@ -126,7 +126,7 @@ def _made_sound(part: TriangleMesh) -> TriangleMesh:
 
 
 def _parts(count: int, triangles: np.ndarray) -> np.ndarray:
-    """Return which body each of so many vertices belongs to, (v,), by triangles (t, 3) that share them."""
+    """Return the body of each vertex, (v,), by triangles (t, 3) that share them."""
     return connected_parts(np.ones(count, bool), triangles[:, [0, 1]].ravel(), triangles[:, [1, 2]].ravel())
 
 
@@ -180,7 +180,7 @@ def _as_mesh64(vertices: np.ndarray, triangles: np.ndarray) -> Mesh64:
 
 
 def _into(plan: CrossSection, points: np.ndarray) -> np.ndarray:
-    """Return points (n, 2) of an area, those at its edge a little within it: the mesh has no height beside it."""
+    """Return points (n, 2) of an area, those at its edge a little within it: the mesh has no height outside it."""
     moved = points.copy()
     inner = plan.offset(-_INWARDS_M)
     outside = np.flatnonzero(distances_outside(inner, points) > 0.0)

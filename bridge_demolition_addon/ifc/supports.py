@@ -149,7 +149,7 @@ def with_one_pinned(supports: Sequence[AddedSupport]) -> list[tuple[AddedSupport
 
 
 def _below(column: TriangleMesh, solid: TriangleMesh) -> TriangleMesh:
-    """Return a column up to the underside of a solid, without what of it is left beside a web above a flange."""
+    """Return a column up to the underside of a solid, without its remains next to a web above a flange."""
     pieces = to_manifold(cut_by(column, [solid])).decompose()
     return from_manifold(max(pieces, key=lambda piece: piece.volume()))
 

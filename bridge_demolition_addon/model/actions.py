@@ -95,7 +95,7 @@ class Worksite(Protocol):
     def structure(self) -> Structure: ...
 
     def surface_height(self, position_m: Place) -> float:
-        """Return the height of what a falling body meets first at a position; refuse one beside all members."""
+        """Return the height of what a falling body meets first at a position; refuse a position outside all members."""
 
     def ground_height(self, position_m: Place) -> float:
         """Return the height of the ground at a position, minus infinity beyond its edge."""

@@ -55,5 +55,5 @@ class Structure:
         return np.flatnonzero(np.isin(self.pairs, bodies).any(axis=1))
 
     def tendons_cut_with(self, connections: np.ndarray, bodies: np.ndarray) -> tuple[CutTendon, ...]:
-        """Return where tendons are cut: in connections (c,) that they pass, or beside bodies (b,) that they are in."""
+        """Return where tendons are cut: in connections (c,) that they pass, or next to bodies (b,) that they are in."""
         return tuple(self.tendons.passages.crossing(connections, bodies)) if self.tendons else ()

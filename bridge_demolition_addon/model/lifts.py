@@ -32,7 +32,7 @@ _MOST_OFF = 0.02
 class Pick:
     """What a crane takes: the mass of its shards, which run and stages move, and of its volume, which the crane lifts.
 
-    They differ where shards end beside its box: those of steelwork, and of members with points of their own.
+    They differ where shards end outside its box: in steelwork, and in members with points of their own.
     """
 
     lift: str

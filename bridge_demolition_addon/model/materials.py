@@ -71,7 +71,7 @@ def check_materials(materials: Iterable[Material]) -> None:
 
 
 def strengths(materials: Iterable[Material]) -> Mapping[str, Strength]:
-    """Return the strengths of all materials by name: those that are known, and the user's own."""
+    """Return the strengths of materials by name: the known ones and the user's own."""
     return MATERIALS | {material.name: material.strength for material in materials}
 
 
@@ -255,8 +255,8 @@ class ReinforcedSection:
     """A rectangular section, or a T, with layers of bars.
 
     `compressive_pa` is the strength of its concrete. Each layer has a depth below the first edge, an area and a yield
-    strength; the width is that along the layers, of a T that of its web. A T has a `flange` at the first edge, whose
-    width and depth that is.
+    strength; the width is along the layers, in a T the web's. A T has a `flange` at the first edge, whose width and
+    depth that is.
     """
 
     height_m: float
@@ -311,8 +311,8 @@ class ReinforcedSection:
         """Return the force at which each layer yields across a crack that closes at one of its edges.
 
         A crack between rigid bodies rotates about its pressed edge, and all bars are in tension; in a section concrete
-        is pressed over some depth, and bars there are not. With these forces both plastic moments are those of the
-        section. In pure tension they resist somewhat less than the bars.
+        is pressed over some depth, and bars there are not. With these forces both plastic moments equal the section's.
+        In pure tension they resist somewhat less than the bars.
         """
         first, other = self.moments_nm()
         pulls = [area * strength for area, strength in zip(self.areas_m2, self.yields_pa, strict=True)]

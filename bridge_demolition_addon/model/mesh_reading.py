@@ -42,7 +42,7 @@ def from_y_up(vertices: np.ndarray) -> np.ndarray:
 
 
 def read_mesh(path: Path, part: str | None = None) -> TriangleMesh:
-    """Return the mesh in a file that ends in one of `MESH_FILES`, as it is, or that of its objects of a name alone."""
+    """Return the mesh in a file that ends in one of `MESH_FILES`, as it is, or only its objects of a name."""
     return TriangleMesh(*_read(path, is_cloud=False, part=part))
 
 

@@ -177,7 +177,7 @@ class BlastZone(PlannedAction):
         return any(letter in self.member for letter in "*?[")
 
     def repeated(self, axes: Sequence[Sequence[str]]) -> tuple[Self, ...]:
-        """Return the zones of all members that it stands for, one of each.
+        """Return the zones of the members that it stands for, one of each.
 
         Parameters
         ----------
@@ -217,7 +217,7 @@ class BlastZone(PlannedAction):
 
     @property
     def drilled_m(self) -> float:
-        """Length of all holes, m."""
+        """Total length of the holes, m."""
         return self.holes * self.depth_m
 
     @property

@@ -33,7 +33,7 @@ class StepLoads:
         return len(self.bodies)
 
     def vectors(self, count: int) -> np.ndarray:
-        """Return the impulse (count, 3) on each of so many bodies, of all charges together, N·s."""
+        """Return the impulse (count, 3) on each of `count` bodies by the charges together, N·s."""
         columns = (self.impulses_ns[:, None] * self.directions).T
         return np.column_stack([np.bincount(self.bodies, column, count) for column in columns])
 
@@ -63,8 +63,7 @@ class Explosion:
     def loads(self, start_s: float, end_s: float, centres: np.ndarray, rotations: np.ndarray) -> StepLoads:
         """Return the exact loads of a step of simulated time.
 
-        Centres of mass (n, 3), m, and rotations (n, 3, 3) from the axes of each body to those of the world are those
-        at its beginning.
+        Centres of mass (n, 3), m, and rotations (n, 3, 3) from body axes to world axes are taken at its beginning.
         """
         self._detonate(np.flatnonzero(~self._detonated & (self._detonations_s < end_s)), centres, rotations)
         pulses = self._pulses
@@ -127,7 +126,7 @@ def no_loads() -> StepLoads:
 
 
 def sum_of_loads(steps: Sequence[StepLoads]) -> StepLoads:
-    """Return the loads of steps of time that follow each other, as those of one step.
+    """Sum the loads of consecutive steps of time into one step.
 
     The area, which changes from step to step, is the mean weighted by pressure impulse.
     """

@@ -117,7 +117,7 @@ def _times(pulses: Pulses) -> np.ndarray:
 
 
 def _peak_velocity(position_m: Sequence[float], charges: Sequence[Charge]) -> float:
-    """Return the largest of all groups, by the distance of the nearest charge of each, which is on the safe side."""
+    """Return the largest over the groups, by the distance of the nearest charge of each, which is on the safe side."""
     velocities = []
     for group in charges_per_delay(charges):
         nearest = distance(np.array(position_m), np.array([charge.position_m for charge in group])).min()
@@ -156,7 +156,7 @@ do less, so that the stand-offs are on the safe side for them. Of eardrums Richm
 
 
 def distinct_thresholds() -> list[Threshold]:
-    """Return the thresholds, without those of the same overpressure as one before."""
+    """Return the thresholds, each overpressure only once."""
     return list({threshold.overpressure_pa: threshold for threshold in reversed(THRESHOLDS)}.values())[::-1]
 
 

@@ -79,7 +79,7 @@ class BlastSettings(Table):
     )
 
     def facts(self, charges: Sequence[Charge], shards: int) -> Iterator[Fact]:
-        """Yield the total of the charges, and how their blast acts on so many shards."""
+        """Yield the total of the charges, and how their blast acts on a number of shards."""
         yield "all", f"{math.fsum(charge.mass_kg for charge in charges):g} kg"
         if not self.explosion:
             yield "explosion", "not ticked: nothing goes off"

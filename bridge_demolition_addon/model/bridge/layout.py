@@ -59,7 +59,7 @@ def deck_seats(bridge: Bridge) -> list[tuple[float, ...]]:
 
 
 def deck_prefixes(bridge: Bridge) -> list[str]:
-    """Return what the names of all decks, and of girders below them, begin with."""
+    """Return what the names of decks, and of girders below them, begin with."""
     decks, kind = len(deck_ends(bridge)), "part" if bridge.half_joints else "span"
     return [f"{kind} {number} " for number in range(1, decks + 1)] if decks > 1 else [""]
 

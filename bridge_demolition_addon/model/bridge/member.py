@@ -30,7 +30,7 @@ SQUARE: Rows = ((1.0, 0.0), (0.0, 1.0))
 class Taper:
     """A column that leans across the road and is longer at its foot, by height below the middle of its top.
 
-    Positions on plan are those of the member without its turn. `lean` is how far its axis moves towards positive y, and
+    Positions on plan are of the member without its turn. `lean` is how far its axis moves towards positive y, and
     `growth` by how much it gets longer, for each metre down.
     """
 
@@ -59,7 +59,7 @@ class Taper:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SteelPart:
-    """What a member of steelwork is beside its solid: a bar between two nodes, or a node, which has no bar.
+    """What a member of steelwork is besides a solid: a bar between two nodes, or a node, which has no bar.
 
     Attributes
     ----------
@@ -80,7 +80,7 @@ class Member:
 
     Its kind is ``deck``, ``girder``, ``pier cap``, ``pier``, ``abutment``, ``bridge`` for all of these in one, or a
     word of the user. Its parts are known where it is not convex itself: convex solids that touch without overlap. Cut
-    within them its shards are convex. Bullet takes every shard for its convex hull, and that of a shard around a
+    within them its shards are convex. Bullet takes every shard for its convex hull, and the hull of a shard around a
     hollow overlaps its neighbours, which throws it off as soon as their connection breaks.
     """
 
@@ -141,7 +141,7 @@ class Member:
 
 
 def mean_density(members: Sequence[Member]) -> float:
-    """Mass of all members over their volume, kg/m³; to the last bit the density of all where they have the same."""
+    """Total mass of members over their volume, kg/m³; to the last bit their common density where they have one."""
     densities = {member.density_kg_m3 for member in members}
     if len(densities) == 1:
         return given(densities.pop())
@@ -160,7 +160,7 @@ def member_facts(members: Sequence[Member]) -> Iterator[Fact]:
 
 
 def mass_facts(members: Sequence[Member]) -> Iterator[Fact]:
-    """Yield volume and mass of each kind of members, and of all."""
+    """Yield volume and mass of each kind of members, and the totals."""
     for kind in dict.fromkeys(member.kind for member in members):
         of_kind = [member for member in members if member.kind == kind]
         yield f"{len(of_kind)} × {kind}", _together(of_kind)

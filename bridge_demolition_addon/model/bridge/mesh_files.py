@@ -28,7 +28,7 @@ _PLANES = ([1, 2], [2, 0], [0, 1])
 
 
 def geometry_members(tables: Sequence[Geometry], *, is_flat: bool = True) -> tuple[tuple[Member, ...], tuple[str, ...]]:
-    """Return members from files, those of the same name united, and sentences on what was repaired.
+    """Return members from files, united where they have the same name, and sentences on what was repaired.
 
     On flat ground nothing may extend below it; elsewhere it is dug away. A `GeometryError` says all that is wrong.
     """

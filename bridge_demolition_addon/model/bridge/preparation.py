@@ -50,9 +50,9 @@ def room_around(scenario: Scenario, members: Sequence[Member]) -> float:
 
 
 def surface_height(scenario: Scenario, members: Sequence[Member], position_m: tuple[float, float]) -> float:
-    """Return the height of the top of all members at a position along and across the road, m.
+    """Return the height of the highest member at a position along and across the road, m.
 
-    Of a bridge alone it is that of the deck, which joints do not interrupt.
+    A bridge alone has the height of its deck, which joints do not interrupt.
     """
     if scenario.bridge and not scenario.geometry and not scenario.steelwork:
         return deck_top_at(scenario.bridge, *position_m)
@@ -87,7 +87,7 @@ class PreparedMembers:
 
 
 def prepared_members(scenario: Scenario) -> PreparedMembers:
-    """Return all members of a scenario: those of the bridge first, then those from files, cut by all before them.
+    """Return all members of a scenario: the bridge's first, then members from files, each cut by all before it.
 
     Steelwork comes last, and nothing is cut off it.
     """

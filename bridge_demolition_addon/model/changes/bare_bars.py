@@ -54,8 +54,8 @@ class StandingBars:
 def standing_bars(
     zone: ZoneFiring, is_in_zone: np.ndarray, pairs: np.ndarray, points_m: np.ndarray
 ) -> StandingBars | None:
-    """Return the bars that stay in a zone without its concrete; None where there is none, or where one of its ends is
-    that of its member.
+    """Return the bars that stay in a zone without its concrete; None where there is none, or where the zone shares an
+    end with its member.
 
     `is_in_zone` (n,) are the bodies of the zone, among whose connections are pairs (m, 2) at points (m, 3).
     """

@@ -86,7 +86,7 @@ class Change(Part):
         return ""
 
     def recorded(self) -> Mapping[str, Any]:
-        """Return what a run says of it beside time, kind, shards and connections, ready for JSON."""
+        """Return what a run says of it besides time, kind, shards and connections, ready for JSON."""
         return {}
 
     @abstractmethod
@@ -117,5 +117,5 @@ class Change(Part):
 
 
 def schedule(changes: Sequence[Change], structure: Structure) -> tuple[Event, ...]:
-    """Return changes as events, in order of time; those of the same time keep their order."""
+    """Return changes as events, in order of time; changes at the same time keep their order."""
     return tuple(sorted((change.event(structure) for change in changes), key=lambda event: event.time_s))

@@ -55,7 +55,7 @@ class PileSection:
     frame, time_s : int, float
         Frame of Blender, and simulated time.
     debris, standing
-        Areas of the shards that have moved by more than 0.1 m, and of all others.
+        Areas of the shards that have moved by more than 0.1 m, and of the others.
     ground_m : (p, 2) float
         The ground below, from the least width to the largest.
     """
@@ -164,7 +164,7 @@ def _cuts(bodies: Sequence[np.ndarray], direction: Direction, position_m: float)
 
 
 def _widths(areas: Sequence[CrossSection]) -> tuple[float, float]:
-    """Return the least and largest width of areas with some metres beside them."""
+    """Return the least and largest width of areas with a margin of some metres."""
     bounds = [_bounds(area) for area in areas if not area.is_empty()]
     left = min((bound[0] for bound in bounds), default=0.0)
     right = max((bound[2] for bound in bounds), default=0.0)

@@ -1,4 +1,4 @@
-"""A survey of the debris after a demolition, beside the forecast of a run: heights, footprints, and a limit."""
+"""A survey of the debris after a demolition against the forecast of a run: heights, footprints, and a limit."""
 
 from __future__ import annotations
 
@@ -39,8 +39,7 @@ class SurveySettings:
     above_m
         Height above the ground from which on a cell holds debris.
     limit_m
-        Distance from the bridge's plan within which debris was to stay; that of the farthest debris of the run unless
-        given.
+        Distance from the bridge's plan within which debris was to stay; the run's farthest debris unless given.
     """
 
     cell_m: float = 0.5
@@ -50,7 +49,7 @@ class SurveySettings:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SurveyComparison:
-    """A forecast beside a survey, over middles (i,) and (j,) of cells in plan.
+    """A forecast against a survey, over middles (i,) and (j,) of cells in plan.
 
     Heights (j, i) are above the ground as the run had it: of the forecast 0 where nothing lies, of the survey nan where
     it has no points. Cells under what still stands by the forecast count as neither.
@@ -74,7 +73,7 @@ class SurveyComparison:
 
     @property
     def known(self) -> np.ndarray:
-        """Cells (j, i) that the survey has points in, beside what stands."""
+        """Cells (j, i) with points of the survey, outside what stands."""
         return np.isfinite(self.survey_m) & ~self.standing
 
     @property
@@ -157,7 +156,7 @@ def read_survey(path: Path, placing: Placing) -> np.ndarray:
 
 
 def compared(results: Results, points: np.ndarray, settings: SurveySettings) -> SurveyComparison:
-    """Return a run beside the points (n, 3) of a survey, in the coordinates of its scenario."""
+    """Compare a run with the points (n, 3) of a survey, in the coordinates of its scenario."""
     results = relative_to_ground(results)
     debris, shards = debris_of(results), results.inventory.of_kind("shard")
     limit_m = settings.limit_m

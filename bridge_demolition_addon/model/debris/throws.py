@@ -132,7 +132,7 @@ def height_map(results: Results, bodies: np.ndarray, cells: int = 200) -> Height
 
 
 def heights_over(results: Results, bodies: Rows, xs: np.ndarray, ys: np.ndarray) -> np.ndarray:
-    """Return the last heights (j, i) of the convex hulls of bodies above the ground, over positions; nan beside them.
+    """Return the last heights (j, i) of the convex hulls of bodies above the ground, over positions; nan outside them.
 
     A body whose hull is flat has no upper side, and is left out.
     """
@@ -162,7 +162,7 @@ _UPRIGHT = 1e-9
 
 
 def _upper_side(normals: np.ndarray, offsets: np.ndarray, xs: np.ndarray, ys: np.ndarray) -> np.ndarray:
-    """Return the heights (j, i) of the upper side of a convex body n·x ≤ d over a grid; nan beside it."""
+    """Return the heights (j, i) of the upper side of a convex body n·x ≤ d over a grid; nan outside it."""
     over_faces = offsets[:, None, None] - normals[:, 0, None, None] * xs - normals[:, 1, None, None] * ys[:, None]
     rising = normals[:, 2]
     up, down, upright = rising > _UPRIGHT, rising < -_UPRIGHT, abs(rising) <= _UPRIGHT

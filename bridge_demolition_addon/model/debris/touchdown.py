@@ -122,7 +122,7 @@ def landings(results: Results, beds: Sequence[FallBed] = ()) -> Landings:
 def shaking_at(position_m: ArrayLike, landed: Landings, law: SiteLaw | None = None) -> Shaking | None:
     """Return the largest shaking of the ground at a position (3,), m, by the site's law; None where nothing landed.
 
-    Without a law it is by Zhou's formula, of which there is nothing where what shakes most lands nearer than it holds.
+    Without a law it is by Zhou's formula; None where what shakes most lands nearer than the formula holds.
     """
     worst = max(
         (_shaking(position_m, landed, together, law) for together in landed.together()),

@@ -27,7 +27,7 @@ _MM_PER_M = 1e3
 class VibrationLimit:
     """A limit of the peak particle velocity for a kind of building, by `corners` of frequency (Hz) and velocity (mm/s).
 
-    Between corners it is a straight line, or, where it `has_steps`, that of the corner below; beyond them level.
+    Between corners it is a straight line, or, where it `has_steps`, the value of the corner below; beyond them level.
     """
 
     building: str

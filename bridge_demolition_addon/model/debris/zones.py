@@ -44,7 +44,7 @@ class Entry:
 class ZoneWatch:
     """Bodies that entered a zone, in order, and those that extended into it from the beginning, such as a pier.
 
-    `mass_within_kg` is that of all bodies in it at the end that were not there before, whole bodies counted.
+    `mass_within_kg` sums the bodies in it at the end that were not there before, whole bodies counted.
     """
 
     zone: Zone
@@ -102,7 +102,7 @@ class _Prism:
 
 
 def _coming_near(results: Results, prism: _Prism, bodies: np.ndarray) -> np.ndarray:
-    """Return those of the bodies whose spheres meet the box around a prism on their way from step to step."""
+    """Return the bodies whose spheres meet the box around a prism on their way from step to step."""
     own = results.inventory.vertices_by_body()
     radii = np.array([float(length(own[body]).max()) for body in bodies])[:, None]
     positions = results.frames.positions_m[:, bodies]

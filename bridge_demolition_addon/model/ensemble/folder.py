@@ -1,8 +1,8 @@
 """The folder of a study, a search or an optimisation: what was asked, the outcome of each run, tables and results.
 
-A run lies in ``draws/`` under the digest of all that it depends on. It appears there whole, once it has ended, so that
-a crash or a kill at any moment loses no more than the runs that are under way. This module writes the folder and reads
-it.
+A run lies in ``draws/`` under the digest of everything that it depends on. It appears there whole, once it has ended,
+so that a crash or a kill at any moment loses no more than the runs that are under way. This module writes the folder
+and reads it.
 """
 
 from __future__ import annotations
@@ -135,7 +135,7 @@ class EnsembleFolder:
         os.replace(part, target)
 
     def write_tables(self, table: RunsTable) -> list[Path]:
-        """Write the tables of all runs that count so far, and return their paths."""
+        """Write the tables of the runs that count so far, and return their paths."""
         paths = [self.path / self.ensemble.table_file]
         write_runs(table, paths[0])
         match self.ensemble:
@@ -147,7 +147,7 @@ class EnsembleFolder:
         return paths
 
     def write_result(self, result: EnsembleResult) -> list[Path]:
-        """Write the result of all runs, and return the paths of the files."""
+        """Write the result of the ensemble, and return the paths of the files."""
         paths = [self.path / self.ensemble.result_file]
         write_whole_text(paths[0], json.dumps({**result.as_json(), "versions": self.versions}, indent=2) + "\n")
         if isinstance(result, Answer) and result.curve is not None:
@@ -224,7 +224,7 @@ def check_folder(path: Path, ensemble: Ensemble, versions: Mapping[str, str]) ->
 
 
 def holds_ensemble(folder: Path, file_name: str = "") -> bool:
-    """Return whether a folder is that of an ensemble, of any kind or of the one with this file of settings."""
+    """Return whether a folder holds an ensemble, of any kind or of the kind with this file of settings."""
     return _file_name_in(folder) in ((file_name,) if file_name else _READERS)
 
 
@@ -259,7 +259,7 @@ def study_in(folder: Path) -> Study:
 
 @dataclass(frozen=True, eq=False)
 class EnsembleRuns:
-    """An ensemble and those of its runs that count so far, as read from its folder."""
+    """An ensemble and its runs that count so far, as read from its folder."""
 
     folder: Path
     ensemble: Ensemble
@@ -276,7 +276,7 @@ class EnsembleRuns:
         return result_of_runs(self.ensemble, self.table)
 
     def run_folders(self) -> dict[int, Path]:
-        """Return the folders of all runs that finished, by their numbers.
+        """Return the folders of finished runs, by their numbers.
 
         Their inputs identify them: cache keys depend on the version that made the runs, which may be another.
         """
@@ -334,7 +334,7 @@ def read_ensemble(folder: Path) -> EnsembleRuns:
 
 
 def result_of_runs(ensemble: Ensemble, table: RunsTable) -> EnsembleResult:
-    """Return the result of all runs of an ensemble."""
+    """Return the result of an ensemble."""
     try:
         match ensemble:
             case Study():
@@ -383,7 +383,7 @@ def _file_name_in(folder: Path) -> str | None:
 
 
 def _without_counts(text: str, ensemble: Ensemble) -> list[str]:
-    """Lines of a file of settings but those of numbers of runs, which may be raised later."""
+    """Lines of a file of settings without the numbers of runs, which may be raised later."""
     counts = ensemble.settings.raised_later
     return [line for line in text.splitlines() if line.partition(" = ")[0] not in counts]
 

@@ -2,8 +2,8 @@
 
 D. A. Gasparini and E. H. Vanmarcke (1976), Simulated earthquake motions compatible with prescribed response spectra,
 MIT Research Report R76-4: sines under an envelope, whose amplitudes are corrected until the spectrum is that which is
-asked for. The envelope is that of P. C. Jennings, G. W. Housner and N. C. Tsai (1968), Simulated earthquake motions,
-Caltech: a parabola, a plateau, an exponential.
+asked for. Envelope: P. C. Jennings, G. W. Housner and N. C. Tsai (1968), Simulated earthquake motions, Caltech: a
+parabola, a plateau, an exponential.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Parts: actions on a part of the bridge, and those of them that act on its bodies by forces."""
+"""Parts: actions on a part of the bridge, and the ones that act on its bodies by forces."""
 
 import json
 from abc import abstractmethod

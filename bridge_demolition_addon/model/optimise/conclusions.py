@@ -87,7 +87,7 @@ class Best:
 
 
 def best_of(optimisation: Optimisation, table: RunsTable) -> Best:
-    """Return the candidate that was chosen, from the table of all runs."""
+    """Return the candidate that was chosen, from the table of runs."""
     settings = optimisation.settings
     number = next(row.inputs[CANDIDATE] for row in table.rows if row.inputs[ROUND] == CONFIRMATION)
     outputs = {name: _outputs(table, number, name) for name in (SEARCH, FINAL, CONFIRMATION)}

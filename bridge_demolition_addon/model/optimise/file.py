@@ -104,7 +104,7 @@ class Space:
 
     @property
     def names(self) -> list[str]:
-        """Names of all values in a table."""
+        """Names of the values in a table."""
         return list(self.shown([0.5] * self.size))
 
     def values(self, shares: Shares) -> dict[ScenarioKey, Any]:
@@ -229,7 +229,7 @@ def _text(value: Any) -> str:
 
 
 def total_charge_kg(scenario: Scenario) -> float:
-    """Return the mass of all charges of a scenario, wherever they are; 0 where it blasts nothing."""
+    """Return the total mass of a scenario's charges, wherever they are; 0 where it blasts nothing."""
     if not scenario.blast.explosion:
         return 0.0
     charged = (scenario.charges, scenario.blast_zones, scenario.cuts)

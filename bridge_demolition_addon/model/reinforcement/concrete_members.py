@@ -42,7 +42,7 @@ def _is_weak_in_tension(strength: Strength) -> bool:
 
 
 def material_of(scenario: Scenario, member: Named) -> str | None:
-    """Return the material within a member: of the first rule that names it twice, or of all connections."""
+    """Return the material within a member: of the first rule that names it twice, or of connections in general."""
     for rule in scenario.connections.between:
         if all(name in (member.name, member.kind) for name in rule.members):
             if rule.material is None and rule.breaking_force_newton is not None:
@@ -82,7 +82,7 @@ def plain_concrete_text(scenario: Scenario) -> str:
 
 
 def plain_concrete(scenario: Scenario) -> list[str]:
-    """Return kinds of members of concrete none of which has bars, and names of those whose kind has some.
+    """Return kinds of concrete members without any bars, and names of members without bars in other kinds.
 
     Bars that are spread evenly over all faces are bars, too.
     """

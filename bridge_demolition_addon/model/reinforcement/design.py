@@ -220,7 +220,7 @@ _REASON = "ratio"
 
 
 def ratio_bars(basis: DesignBasis) -> Iterator[ScheduledBars | ScheduledLinks]:
-    """Yield the bars and links of all members that ratios are given for; of the last that names it."""
+    """Yield the bars and links of the members that ratios are given for; of the last that names it."""
     tables: dict[int, RatiosOfMember] = {}
     for table in basis.rule.ratios:
         for index in members_named(table.member, basis.members, f"{table.table}.member"):

@@ -1,4 +1,4 @@
-"""What the design of all members has in common: bridge, materials, cover and traffic, and bars that it chooses."""
+"""What the design of every member has in common: bridge, materials, cover and traffic, and bars that it chooses."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ _MOST_LEGS_APART_M = 0.6
 
 @dataclass(frozen=True, slots=True)
 class Tension:
-    """Bars in tension that a moment needs: their depth below their side, and why there are so many."""
+    """Bars in tension that a moment needs: their depth below their side, and why the number."""
 
     choice: BarChoice
     depth_m: float
@@ -128,8 +128,8 @@ class BarDesign:
     ) -> Tension:
         """Return bars for a moment, in as few rows as they fit in.
 
-        `outside_m` is the distance of their outer edge from their side, `bars_width_m` that of the concrete in which
-        they lie, and `least_m2` their least area by their depth below the pressed edge.
+        `outside_m` is the distance of their outer edge from their side, `bars_width_m` the width of the concrete in
+        which they lie, and `least_m2` their least area by their depth below the pressed edge.
         """
         least_spacing = 0.0 if bars_width_m < _NARROW_M else _LEAST_SPACING_M
         room = bars_width_m - 2.0 * (self.rule.cover_m if is_slab else self.rule.cover_m + self.link_m)
@@ -258,7 +258,7 @@ class BarDesign:
     ) -> ScheduledLinks | None:
         """Return the links for a shear force; None for a slab that needs none.
 
-        `width_m` is that of all webs together, `bars_m2` the bars in tension beside them. Where a girder `has_slab`
+        `width_m` is the sum of the webs' widths, `bars_m2` the bars in tension with them. Where a girder `has_slab`
         above it, its links hold this.
         """
         concrete_n = without_links_n(width_m, depth_m, bars_m2, self.concrete)
@@ -380,7 +380,7 @@ class BeamEffects:
     def shear_beyond_n(self, supports_m: Sequence[float], distance_m: float) -> float:
         """Return the largest shear force farther from all supports than a distance; 0 where nothing is.
 
-        Between two points a shear is that of axles at or beyond the next one: so the part before the distance counts.
+        Between two points a shear comes from axles at or beyond the next one: so the part before the distance counts.
         """
         apart = np.abs(self.lines.between_m[:, None] - np.array(supports_m)).min(axis=1)
         before = 1.5 * np.diff(self.lines.points_m)

@@ -184,7 +184,7 @@ def _across(
 
 
 def _overhang_moment_nm(line: FileDeckLine, section: LyingSection) -> float:
-    """Return the moment of what cantilevers beside the underside, over the whole length of the deck."""
+    """Return the moment of what cantilevers out from the underside, over the whole length of the deck."""
     axes = section.axes
     half, root = 0.5 * axes.width_m, 0.5 * section.bottom_m
     if half - root < _LEAST_OVERHANG_M:
@@ -258,7 +258,7 @@ def _whole(across_m: np.ndarray) -> np.ndarray:
 
 
 def _abreast(basis: FileDesign, line: FileDeckLine, index: int, girders: Sequence[int]) -> list[tuple[float, int]]:
-    """Return the girders beside one in its middle, with their positions across the road, from right to left.
+    """Return the girders abreast of one in its middle, with their positions across the road, from right to left.
 
     Of girders one above the other one counts, itself among its own.
     """

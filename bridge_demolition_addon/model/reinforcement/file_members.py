@@ -89,7 +89,7 @@ class FileDesign:
         yield from made
 
     def note(self, name: str, text: str) -> None:
-        """Note something of a member, together with others of which the same is to be said."""
+        """Note something of a member, together with others that it is true of."""
         names = self.notes.setdefault(text, [])
         if name not in names:
             names.append(name)
@@ -111,7 +111,7 @@ class LyingSection:
 
     @classmethod
     def of(cls, member: Member, slab_m: float = 0.0, flange_m: float = 0.0) -> LyingSection:
-        """Return the section of a member, below a slab of a thickness of which a width is its flange."""
+        """Return the section of a member below a slab of a thickness, with a width of it as its flange."""
         axes = own_axes(member)
         height, web = axes.height_m, axes.web_m
         bottom, top = (axes.width_at_m(share * height) for share in (0.1, 0.9))

@@ -1,4 +1,4 @@
-"""Bars of members from files that carry decks, or stand beside them: caps, columns, walls, footings and the rest."""
+"""Bars of members from files that carry decks, or stand next to them: caps, columns, walls, footings and the rest."""
 
 from __future__ import annotations
 
@@ -41,8 +41,8 @@ class CarriedLoad:
 def loads_of_carriers(basis: FileDesign, lines: Sequence[FileDeckLine]) -> dict[int, CarriedLoad]:
     """Return the loads on what carries decks, and on what carries that, down to footings and abutments.
 
-    What several members carry together they share evenly; of the traffic each has twice that, as it may stand beside
-    the axis of the road.
+    What several members carry together they share evenly; of the traffic each has twice that, as it may stand off the
+    axis of the road.
     """
     loads: dict[int, CarriedLoad] = {}
     for line in lines:

@@ -32,7 +32,7 @@ _ONE_SUPPORT = 0.04
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Seat:
-    """Where a member lies on another or, through an upright face, beside it."""
+    """Where a member lies on another or, through an upright face, against it."""
 
     above: int
     below: int

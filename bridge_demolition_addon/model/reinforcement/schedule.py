@@ -44,7 +44,7 @@ class ScheduledBars:
 
     @property
     def area_m2(self) -> float:
-        """Area of all bars in one section of one member."""
+        """Area of bars in one section of one member."""
         return self.layer.ratio * self.section_m2 if self.layer.is_spread else self.layer.area_m2
 
     @property
@@ -53,7 +53,7 @@ class ScheduledBars:
 
     @property
     def utilisation(self) -> float:
-        """Required area by that of the bars."""
+        """Required area over the bars' area."""
         return self.required_m2 / self.area_m2
 
     @property

@@ -89,7 +89,7 @@ def _layer_distance_m(diameter_m: float, radius_m: float) -> float:
 def _ring(
     basis: BarDesign, name: str, diameter_m: float, axial_n: float, buckling_m: float
 ) -> tuple[float, float, str]:
-    """Return the diameter of the bars of a ring, the area of all of them, and what it follows from."""
+    """Return the diameter of the bars of a ring, their total area, and what it follows from."""
     area = _area_m2(diameter_m)
     least, side = of_column_m2(axial_n, area, basis.design_yield_pa), math.sqrt(area)
     for bar in diameters_from(basis.bar_m):
@@ -170,7 +170,7 @@ def _joined(points: Sequence[np.ndarray], reactions: Sequence[np.ndarray]) -> tu
 
 
 def pier_bars(basis: DesignBasis, loads: Sequence[SupportLoad]) -> Rows:
-    """Yield the bars of all piers and abutments, whose supports have such loads."""
+    """Yield the bars of piers and abutments with such loads on their supports."""
     bridge = basis.bridge
     on_piers = loads[1:-1] if bridge.abutments else loads
     for number, load in enumerate(on_piers, start=1):

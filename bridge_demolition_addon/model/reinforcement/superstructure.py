@@ -152,7 +152,7 @@ def _top_bars(
 def through_and_over_supports(
     found: Tension, through: int, parts: Sequence[tuple[float, float]]
 ) -> Iterator[tuple[Tension, tuple[float, float] | None]]:
-    """Yield so many of the bars that go all along a deck, and the others for each part in which they lie."""
+    """Yield a number of bars that go all along a deck, and the others for each part in which they lie."""
     choice = found.choice
     room = (choice.number - 1) * choice.spacing_m
     stretches: Sequence[tuple[float, float] | None]
