@@ -1,7 +1,7 @@
 """Keys and tables of a scenario: what they mean, and which values they take.
 
 A table is a dataclass. Its fields are made by `key`, or hold other tables. The check of the values (`Table`), the
-messages (`expected`), the reference of all keys and the sidebar follow from this one declaration.
+messages (`expected`), the reference of keys and the sidebar follow from this one declaration.
 """
 
 import json

@@ -59,7 +59,7 @@ class Taper:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SteelPart:
-    """What a member of steelwork is besides a solid: a bar between two nodes, or a node, which has no bar.
+    """What makes a member steelwork: a bar between two nodes, or a node, which has no bar.
 
     Attributes
     ----------

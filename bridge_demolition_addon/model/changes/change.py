@@ -86,7 +86,7 @@ class Change(Part):
         return ""
 
     def recorded(self) -> Mapping[str, Any]:
-        """Return what a run says of it besides time, kind, shards and connections, ready for JSON."""
+        """Return what a run says of it apart from time, kind, shards and connections, ready for JSON."""
         return {}
 
     @abstractmethod

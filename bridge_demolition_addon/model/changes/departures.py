@@ -53,8 +53,8 @@ def departure_of(
 
     Each moves across its member, away from the middle of the section, those that are farther out no slower: so no two
     of them come closer on the way. Where one of `others_m`, the boxes (k, 2, 3) around what is not of this member, is
-    next to it, fragments that would leave towards it pass the others to the opposite side: columns of a pier would
-    throw their concrete into each other. Rubble of a level member falls straight down.
+    next to it, bodies that would leave towards it pass the others to the opposite side: columns of a pier would throw
+    their concrete into each other. Rubble of a level member falls straight down.
     """
     section = np.array((given(zone.lowest_corner_m), given(zone.highest_corner_m)))
     from_axis = centres_m - section.mean(axis=0)

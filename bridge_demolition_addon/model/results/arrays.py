@@ -1,6 +1,6 @@
 """Everything a run recorded, the files that keep it, and the digests that tell whether two runs are the same.
 
-One is of what was built, one of how everything moved and broke, and one of all results. Where the first differs,
+One holds what was built, one how everything moved and broke, and one the whole results. Where the first differs,
 something else was simulated. Where only the others do, Blender's own arithmetic differs.
 """
 
@@ -103,8 +103,8 @@ _UNREADABLE = (
 class Results:
     """A run: bodies and connections, motion and loads, hits of the balls.
 
-    Where `load_sampling` is ``every sub-step``, loads are those of the whole frame, otherwise of its last sub-step.
-    `contacts` are those in the last sub-step of each frame; None where they were not recorded.
+    Where `load_sampling` is ``every sub-step``, loads cover the whole frame, otherwise its last sub-step. `contacts`
+    are those in the last sub-step of each frame; None where they were not recorded.
     """
 
     load_sampling: str
@@ -171,7 +171,7 @@ def load_results(path: Path) -> Results:
 
 
 def results_in(folder: Path) -> Path:
-    """Return the file in the folder of a run that its results are read from: that of a whole run, if there is one."""
+    """Return the file in the folder of a run that its results are read from: a whole run's, if there is one."""
     left = folder / FRAMES_FILE
     return left if left.exists() and not (folder / RESULTS_FILE).exists() else folder / RESULTS_FILE
 
@@ -213,7 +213,7 @@ def columns(rows: np.ndarray) -> dict[str, np.ndarray]:
 
 
 def _left_arrays(path: Path) -> dict[str, np.ndarray]:
-    """Return the arrays that a run was writing; of sub-steps and contacts, those of whole frames."""
+    """Return the arrays that a run was writing; of sub-steps and contacts, arrays of whole frames."""
     frames, inventory, balls = stored_rows(path), path.with_name(INVENTORY_FILE), path.with_name(BALLS_FILE)
     check_file(inventory)
     arrays = read_archive(inventory) | columns(frames) | _left_contacts(path.with_name(CONTACTS_FILE), frames)
@@ -244,7 +244,7 @@ def _part(kind: type[_Part], arrays: Mapping[str, np.ndarray], **known: Any) -> 
 
 
 def _work(arrays: Mapping[str, np.ndarray]) -> FrameWork:
-    """Return the work, of which earlier versions did not record all."""
+    """Return the work; earlier versions did not record every part."""
     unknown = FrameWork.unknown(*arrays["places_m"].shape[:2])
     if _STORED_NAMES[FrameWork]["made_j"] not in arrays:
         return unknown

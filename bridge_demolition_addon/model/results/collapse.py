@@ -33,7 +33,7 @@ class Span:
     """Height of one span over k recorded steps; `bodies` (b,) are its shards.
 
     `heights_m` and `lowest_m` (k,) are the heights of its shards' centres of mass above the ground below each, the mean
-    by mass and the least; `levels_m` (k,) that of its own centre of mass above the scenario's origin.
+    by mass and the least; `levels_m` (k,) the height of its own centre of mass above the scenario's origin.
     """
 
     name: str
@@ -195,7 +195,7 @@ class ConnectionCounts:
 
     @classmethod
     def at_end(cls, known: ConnectionsOfRun, bars: BarsAtEnd | None) -> ConnectionCounts:
-        """Return the counts at the end of a run, by its summary; those of runs of before as far as these say."""
+        """Return the counts at the end of a run, by its summary; for earlier runs as far as that says."""
         if known.cracked is None and bars:
             return cls(known.count, known.broken, bars.held_at_end, None, known.broken - bars.held_at_end)
         return cls(known.count, known.broken, known.cracked, known.yielded, known.torn)

@@ -20,9 +20,9 @@ _SPHERE = 0.4
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Energy:
-    """Energies of all bodies that can move, over k recorded steps, (k,) J.
+    """Energies of the bodies that can move, over k recorded steps, (k,) J.
 
-    `potential_j` is above that of the lowest of all steps, so that it is never negative.
+    `potential_j` is above its lowest step, so that it is never negative.
     """
 
     times_s: np.ndarray
@@ -118,8 +118,8 @@ class Throws:
         Whether at least half of that kinetic energy was made by the solver.
     beyond_fall : (d,) bool
         Whether they flew farther than twice the height of a fall with all their energy: down to the ground, and by the
-        height that the speed with which they began, and that of a ball, make up for. Never where charges went off, nor
-        where the solver made less than the energy that is lacking: such a shard has slid or rolled.
+        height that their own speed at the beginning, and a ball's, make up for. Never where charges went off, nor where
+        the solver made less than the energy that is lacking: such a shard has slid or rolled.
     """
 
     bodies: np.ndarray

@@ -50,7 +50,7 @@ def contact_forces(results: Results) -> ContactForces:
 
 
 def largest_on_a_shard(results: Results, magnitudes: np.ndarray) -> np.ndarray:
-    """Return the largest of the magnitudes (k, n) of all bodies on any shard, (k,); 0 without shards."""
+    """Return the largest magnitude (k,) on any shard, from the bodies' (k, n); 0 without shards."""
     return magnitudes[:, results.inventory.of_kind("shard")].max(axis=1, initial=0.0)
 
 
@@ -64,7 +64,7 @@ class Peak:
 
 
 def most_loaded(magnitudes_n: np.ndarray, rows: np.ndarray, count: int = 10) -> list[Peak]:
-    """Return those of the rows (r,) with the largest load of the whole run, the largest first.
+    """Return the rows (r,) with the largest load of the whole run, the largest first.
 
     `magnitudes_n` (k, n) is the largest load of each row in each step; nan where it is not known.
     """
@@ -83,7 +83,7 @@ def most_loaded(magnitudes_n: np.ndarray, rows: np.ndarray, count: int = 10) -> 
 def peak_near(results: Results, time_s: float, within_s: float) -> Peak | None:
     """Return the largest resultant on a shard at most `within_s` from a time; None without a load there.
 
-    Where no frame is that near, it is that of the nearest frame.
+    Where no frame is that near, the nearest frame counts.
     """
     times, shards = np.asarray(results.frames.time_s), results.inventory.of_kind("shard")
     if not len(times) or not len(shards):
@@ -154,7 +154,7 @@ class BearingHistory:
     name
         The member above ``on`` the one below.
     forces_n
-        (k, 3), each the mean over its frame; nan where it is not known, as that of bodies that have slept so far.
+        (k, 3), each the mean over its frame; nan where it is not known, as on bodies that have slept so far.
     intact
         (k,) part of its connections that are there.
     """
@@ -165,7 +165,7 @@ class BearingHistory:
 
 
 def bearing_histories(results: Results, tables: Sequence[Bearing]) -> list[BearingHistory]:
-    """Return the forces of all bearings of a scenario, by name; a bearing is all that connects its two members."""
+    """Return the forces of a scenario's bearings, by name; a bearing is all that connects its two members."""
     inventory = results.inventory
     if not tables or not len(inventory.pairs):
         return []

@@ -35,7 +35,7 @@ class _Recorded(Generic[_Count, _Number]):
     intact : (m,) bool
         Whether each connection holds.
     blast_impulses_ns : (n, 3) float
-        Impulse of all blasts in the frame; it is no part of the loads.
+        Total impulse of blasts in the frame; it is no part of the loads.
     """
 
     number: _Count
@@ -157,7 +157,7 @@ class Inventory:
     body_members, body_member_kinds : (n,) str
         Name and kind of the member that each body was cut from; empty where it was not.
     vertices_m, vertex_counts : (v, 3) float, (n,) int
-        Vertices of all bodies, each in its own axes from its origin, and how many each has.
+        Vertices of the bodies, each in its own axes from its origin, and how many each has.
     connection_names, pairs : (m,) str, (m, 2) int
         Names, and indices of the connected bodies.
     points_m, areas_m2, normals : (m, 3), (m,), (m, 3) float

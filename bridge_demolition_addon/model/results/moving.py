@@ -1,4 +1,4 @@
-"""Shards that still move or creep when a run ends: their throws are those of a moment, and not final."""
+"""Shards that still move or creep when a run ends: their throws are of a moment, and not final."""
 
 from __future__ import annotations
 

@@ -126,7 +126,7 @@ class SolverEnergy:
 
     @property
     def counted_share(self) -> float:
-        """The share that counts; earlier versions took that of what was dissipated."""
+        """The share that counts; earlier versions took a share of what was dissipated."""
         return self.share_of_dissipated if self.share_that_counts is None else self.share_that_counts
 
 
@@ -186,7 +186,7 @@ class BarsOfKind:
 
 @dataclass(frozen=True, slots=True)
 class BarsAtEnd:
-    """What bars across cracks did in a run: of all connections that have any, and by kind of member."""
+    """What bars across cracks did in a run: in total, and by kind of member."""
 
     with_bars: int
     cracked: int

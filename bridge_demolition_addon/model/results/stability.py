@@ -78,8 +78,8 @@ class Stability:
     reason : str
         Why it comes down, or why this cannot be known; empty where it stands.
     load_factor, utilisation, deflection_m : float or None
-        Collapse load factor, of which `LARGEST_FACTOR` stands for any above, largest utilisation of a connection and
-        largest deflection; None where statics was not asked or cannot say.
+        Collapse load factor (`LARGEST_FACTOR` stands for any above), largest utilisation of a connection and largest
+        deflection; None where statics was not asked or cannot say.
     used_most, used_of : str
         Member with the largest utilisation, and what it is a part of; empty where an earlier version wrote it.
     cracked, overloaded_connections, connections : int

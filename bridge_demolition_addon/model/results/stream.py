@@ -30,7 +30,7 @@ _FRACTIONS = np.float32
 
 
 class FrameStream(Sequence[Frame]):
-    """The frames of a recording, each of which is on the disk as soon as it is added, and none in memory.
+    """The frames of a recording, each on the disk as soon as it is added, none in memory.
 
     What another stream has left in the folder, which exists, is replaced. `contacts` says whether contacts are kept.
     """

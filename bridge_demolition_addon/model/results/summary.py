@@ -29,8 +29,8 @@ RESTING_WEIGHTS = 3.0
 def key_step(results: Results, gravity_m_s2: np.ndarray) -> tuple[int, str]:
     """Return the recorded step that shows most, and which moment it is, with the acceleration of gravity (3,).
 
-    It is the impact of the ball; without one, shortly after the blast; without that, when half of all connections that
-    broke in the run had broken; where none did, that of the largest force on a shard.
+    It is the impact of the ball; without one, shortly after the blast; without that, when half of the connections that
+    broke in the run had broken; where none did, the step of the largest force on a shard.
     """
     frames = results.frames
     impact = impact_step(results, gravity_m_s2)
@@ -135,7 +135,7 @@ def hits_of_balls(
 ) -> list[dict[str, Any]]:
     """Return all hits of balls: impulse, the raw force with the step that it depends on, and estimates that do not.
 
-    Parameters are those of `summarise`.
+    Parameters as in `summarise`.
     """
     steps = np.diff(results.balls.times_s, prepend=results.frames.time_s[0])
     all_hits = []

@@ -1,4 +1,4 @@
-"""Names of the files in the folder of a run, and of those of its report, which the next one replaces.
+"""Names of the files in the folder of a run, and of its report's files, which the next report replaces.
 
 A report leaves a list of its files. Folders of before have none: there, files have the names that reports had.
 """
@@ -94,7 +94,7 @@ _FILES = (*REPORT_FILES, PLAN_WORKBOOK, CHARGES_DXF, CHARGES_GEOJSON)
 
 
 def reported_in(folder: Path) -> list[str]:
-    """Return the files that a report left in a folder, relative to it; those of another name are never among them."""
+    """Return the files that a report left in a folder, relative to it; files of another name are never among them."""
     try:
         listed = file_text(folder / REPORT_LIST, MEGABYTE).splitlines()
     except UnreadableError:
@@ -120,7 +120,7 @@ def check_free(folder: Path, names: Iterable[str] = _FILES) -> None:
 
 
 def list_report(folder: Path, names: Iterable[str]) -> None:
-    """Add names to the list of a report's files, before they are written: those of one that is killed count as well."""
+    """Add names to the list of a report's files, before they are written: files of a killed report count as well."""
     listed = sorted({*reported_in(folder), *names})
     write_whole_text(folder / REPORT_LIST, "".join(f"{name}\n" for name in listed))
 

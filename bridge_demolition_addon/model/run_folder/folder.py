@@ -67,7 +67,7 @@ def prepare_folder(folder: Path, *, overwrite: bool) -> FolderLock:
 def lock_in_place(lock: FolderLock) -> FolderLock:
     """Return the lock of the folder in which a run can still leave its results: its own.
 
-    A folder that was moved or deleted is made again; where something else has its name, one beside it gets a number.
+    A folder that was moved or deleted is made again; where something else has its name, the new one gets a number.
     """
     if lock.in_place:
         return lock
@@ -138,7 +138,7 @@ def keep_scenario(folder: Path, scenario: Scenario, made_by_hand: Sequence[str] 
 
 
 def keep_site(folder: Path, site: Mapping[str, Any]) -> None:
-    """Put other zones, another exclusion zone and the like, by fields of a scenario, into that of a run, if it has one.
+    """Put other zones, another exclusion zone and the like, by fields of a scenario, into a run's, if it has one.
 
     They take no part in the simulation: reports read them there.
     """

@@ -60,11 +60,11 @@ class LogTable(Generic[Source]):
 
     @property
     def headers(self) -> list[str]:
-        """Headers of all columns of the file."""
+        """Headers of the file's columns."""
         return [*_STARTS, *self.names, *self.value_headers]
 
     def values(self, source: Source) -> np.ndarray:
-        """Return the values of all lines (n, k); a zero has no sign."""
+        """Return the values (n, k), line by line; a zero has no sign."""
         return np.column_stack([column.value(source) for column in self.columns]) + 0.0
 
 

@@ -1,4 +1,4 @@
-"""Digest of this program's own code: which program calculated a run, of which one version has many while it is made."""
+"""Digest of this program's own code: which program calculated a run; a version in the making has many."""
 
 from __future__ import annotations
 

@@ -104,7 +104,7 @@ class RunSummary:
 
     @classmethod
     def of(cls, values: Any, *, is_checked: bool = False) -> RunSummary:
-        """Return a summary from its values by key; those of a file are checked.
+        """Return a summary from its values by key; keys of a file are checked.
 
         Raises
         ------

@@ -141,7 +141,7 @@ class Alignment(Table):
         return self.tops_m is not None or self.end_grade_percent not in (None, self.grade_percent)
 
     def check_axes(self, axes_m: Sequence[float], first_top_m: float) -> None:
-        """Check that tops are those of a bridge whose deck is so high at the first axis, and curves are on it.
+        """Check that tops fit a bridge with its deck at this height at the first axis, and curves are on it.
 
         Raises
         ------

@@ -107,7 +107,7 @@ class Arch(Table):
             raise self.unexpected("block_length_m", f"at least {least:.6g} (m), so that piers stand on the blocks")
 
     def check_width(self, apart_m: float, columns: int, column_m: float) -> None:
-        """Check that all columns of a width stand on it, so many with their axes so far apart."""
+        """Check that the columns of a width all stand on it, with their number and distance of axes."""
         over = column_m if self.ribs > 1 else (columns - 1) * apart_m + column_m
         if over > self.width_m * (1.0 + ROUNDING):
             raise self.unexpected("width_m", f"at least {over:.6g} (m), over what stands on it")

@@ -329,7 +329,7 @@ class Ball(_Drop, BodyInContact, PlannedAction):
             hit.check_lift(plan.timeline)
 
     def check_model(self, site: Worksite) -> None:
-        """Check that it begins beside all members, as Bullet would throw them apart, and swings above the ground."""
+        """Check that it begins clear of every member, as Bullet would throw them apart, and swings above the ground."""
         if self.cable:
             self.check_swing(site.ground_height(self.cable.lowest_point_m[:2]))
         heights_m = [site.surface_height(position) for position in self.starts_above()]

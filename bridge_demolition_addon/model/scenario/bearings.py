@@ -183,7 +183,7 @@ class Bearing(Table):
         return float("inf") if self.friction is None else self.friction
 
     def arm_m(self, length_m: float) -> float:
-        """Return the distance, along the road, of its springs from its axis; `length_m` is that of the contact."""
+        """Return the distance, along the road, of its springs from its axis; `length_m` is the contact's length."""
         if self.kind == FIXED:
             # Two rows resist turning as an even bed does: L² / 12 = a².
             length = self.pad_m[0] if self.pad_m else length_m
@@ -193,7 +193,7 @@ class Bearing(Table):
         return sqrt(_NEWTON_PER_MEGANEWTON * self.rotation_mnm_rad / self.vertical_n_m)
 
     def joint(self, own: Joint, strength_factor: float, *, is_elastic: bool) -> Joint:
-        """Return the joint of its pads, by that of connections that follow no rule."""
+        """Return the joint of its pads, from the joint of connections that follow no rule."""
         if is_elastic:
             return Joint("GENERIC", strength=own.strength, moduli=own.moduli)
         force, strength = own.breaking_force_n, own.strength

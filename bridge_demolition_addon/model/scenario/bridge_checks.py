@@ -31,7 +31,7 @@ SHORTEST_SUPPORT_M = 0.1
 
 
 def axes_m(bridge: Bridge) -> list[float]:
-    """Return the positions along the road of the axes of all supports, in the middle of the road."""
+    """Return the positions along the road of the supports' axes, in the middle of the road."""
     return list(accumulate(bridge.span_lengths_m, initial=0.0))
 
 
@@ -62,7 +62,7 @@ def deck_underside(bridge: Bridge) -> float:
 
 
 def slab_underside(bridge: Bridge) -> float:
-    """Height of the slab's underside above the ground, m: higher than that of the girders or the box it lies on."""
+    """Height of the slab's underside above the ground, m: higher than the girders' or the box's it lies on."""
     below = bridge.girders or bridge.box_girder
     return deck_underside(bridge) + (below.depth_m if below else 0.0)
 

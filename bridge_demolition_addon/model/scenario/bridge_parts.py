@@ -114,7 +114,7 @@ class Voids(Table):
     diameter_m: float = key("Diameter of a tube.", **SIZE)
 
     def lightened(self, deck: Deck, density_kg_m3: float) -> Deck:
-        """Return a deck of a density with that of its concrete and its voids together."""
+        """Return a deck with the mean density of its concrete and its voids."""
         hollow_m2 = 0.25 * math.pi * self.number * self.diameter_m * self.diameter_m
         solid = 1.0 - hollow_m2 / (deck.width_m * deck.thickness_m)
         return replace(deck, density_kg_m3=solid * (deck.density_kg_m3 or density_kg_m3))

@@ -181,7 +181,7 @@ class ConnectionSettings(JointSettings):
         return self.stiffness == "elastic"
 
     def with_strength(self, shards: int) -> Self:
-        """Return the settings of a bridge in so many shards: large ones need no strength."""
+        """Return the settings of a bridge in a number of shards: large ones need no strength."""
         if not self.has_strength and shards >= LARGE_MODEL and self.method == "face":
             return replace(self, material=MATERIAL_OF_LARGE_MODELS)
         check_exactly_one(self, *STRENGTH_KEYS)
@@ -377,7 +377,7 @@ def _moduli(
     materials: Sequence[Material],
     others: ElasticModuli | None = None,
 ) -> ElasticModuli:
-    """Return moduli that are given, or else those of a material, or else of the other connections."""
+    """Return given moduli, or else a material's, or else the moduli of the other connections."""
     young, poisson = settings.elastic_modulus_n_mm2, settings.poisson_ratio
     if young is not None and poisson is not None:
         return ElasticModuli(young * NEWTON_PER_SQUARE_MILLIMETRE, poisson)

@@ -41,7 +41,7 @@ def contact_pairs(scenario: Scenario) -> Iterator[tuple[str, SurfaceValues]]:
 
 
 def contact_facts(scenario: Scenario) -> Iterator[Fact]:
-    """Yield friction and restitution of all pairs, and whether they come from values of single bodies."""
+    """Yield friction and restitution of every pair, and whether they come from values of single bodies."""
     if sentence := own_values_sentence(scenario):
         yield "given", sentence
     pairs = list(contact_pairs(scenario))
@@ -68,7 +68,7 @@ def contact_facts(scenario: Scenario) -> Iterator[Fact]:
 
 
 def _unused_keys(scenario: Scenario) -> list[str]:
-    """Return the keys of pairs that are given, and of which there is no body."""
+    """Return the given keys of pairs without a body."""
     if scenario.contacts is None:
         return []
     there = {body.contact for body in scenario.bodies_in_contact}
@@ -142,7 +142,7 @@ def with_surfaces(scenario: Scenario, surfaces: Surfaces) -> Scenario:
 
 
 def _contacts(built: ContactSettings, surfaces: Surfaces) -> ContactSettings | None:
-    """Return pairs that make the values of all bodies; None where no pairs do."""
+    """Return pairs that make every body's values; None where no pairs do."""
     values: dict[str, SurfaceValues] = {}
     for body, surface in surfaces.items():
         if values.setdefault(body.contact, surface) != surface:
@@ -165,7 +165,7 @@ def _contacts(built: ContactSettings, surfaces: Surfaces) -> ContactSettings | N
 
 
 def _pairs(built: ContactSettings, quantity: str, of_bodies: Mapping[str, float]) -> dict[str, float] | None:
-    """Return a quantity of each pair with a shard by those of single bodies; None where no pairs make these."""
+    """Return a quantity of each pair with a shard from the values of single bodies; None where no pairs make these."""
     shard = of_bodies[SHARDS]
     of_two = _first_that_makes(shard, shard_value, [getattr(built.shards, quantity), *_products(shard, shard)])
     if of_two is None:
@@ -188,7 +188,7 @@ def _products(first: float, second: float) -> tuple[float, float]:
 
 
 def _first_that_makes(value: float, made: Callable[[float], float], tried: Iterable[float]) -> float | None:
-    """Return the first number of which the value of a body is made, in Blender's single precision."""
+    """Return the first number that makes the value of a body, in Blender's single precision."""
     for number in tried:
         try:
             if np.float32(made(number)) == np.float32(value):

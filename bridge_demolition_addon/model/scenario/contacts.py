@@ -48,7 +48,7 @@ class SurfaceValues:
     restitution: float
 
     def with_other(self, other: "SurfaceValues") -> "SurfaceValues":
-        """Return those of the contact of two bodies."""
+        """Return friction and restitution of the contact of two bodies."""
         return SurfaceValues(
             contact_friction(self.friction, other.friction), contact_restitution(self.restitution, other.restitution)
         )
@@ -224,7 +224,7 @@ class BodyInContact(Table):
 
 
 def with_own_values(body: _Body) -> _Body:
-    """Return a body with values of its own: those of older versions where it does not give them."""
+    """Return a body with values of its own: the values of older versions where it does not give them."""
     missing = {name: value for name, value in body.older_values.items() if getattr(body, name) is None}
     return replace(body, **missing)
 

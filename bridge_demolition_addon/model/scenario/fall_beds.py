@@ -95,7 +95,7 @@ class FallBed(PlannedAction):
 
 
 def vibration_factors(beds: Sequence[FallBed], positions_m: np.ndarray) -> np.ndarray:
-    """Return the part (n,) that is left of the vibration by what lands at positions (n, 2), the least of all beds."""
+    """Return the part (n,) that is left of the vibration by what lands at positions (n, 2), the least of any bed."""
     factors = np.ones(len(positions_m))
     for bed in beds:
         factors[bed.covers(positions_m)] = np.minimum(factors[bed.covers(positions_m)], bed.vibration_factor)

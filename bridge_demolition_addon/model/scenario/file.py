@@ -81,7 +81,7 @@ def scenario_text(scenario: Scenario) -> str:
 
 
 def files_of(scenario: Scenario) -> Iterator[Path]:
-    """Yield the paths of all other files that a scenario names, in the order of `PATHS`."""
+    """Yield the paths of the other files that a scenario names, in the order of `PATHS`."""
     for name, key in PATHS:
         tables: list[Any] = [scenario]
         for step in name.split("."):
@@ -114,7 +114,7 @@ def _keys_in(document: dict[str, Any], tables: Iterable[str]) -> Iterator[str]:
 
 
 def _where_it_is(path: Path) -> Path:
-    """Return a path, or where there is nothing the file of that name in `MOVED_TO` beside it, and say so."""
+    """Return a path, or where there is nothing the file of that name in `MOVED_TO` next to it, and say so."""
     moved = path.parent / MOVED_TO / path.name
     if lexists(path) or not isfile(moved):
         return path

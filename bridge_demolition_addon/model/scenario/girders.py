@@ -258,7 +258,7 @@ class GirderSpan(Table):
         return tuple(f"{girder} {number}" for girder in self.girder_names for number in (0, len(self._stations) - 1))
 
     def points_of(self) -> Iterator[tuple[str, ...]]:
-        """Yield the names of the nodes of all girders at each position along the road."""
+        """Yield the names of the girders' nodes at each position along the road."""
         for number in range(len(self._stations)):
             yield tuple(f"{girder} {number}" for girder in self.girder_names)
 
@@ -413,8 +413,8 @@ class GirderSpan(Table):
 def joints_of_deck(span: GirderSpan, concrete: Joint, factor: float) -> tuple[Joint, Joint]:
     """Return the joints of a deck with its girders, and with their section over inner supports.
 
-    `concrete` is that of connections within the deck, and `factor` is on all strengths. Studs resist shear and uplift
-    by the area of the flange, and concrete what is pressed. A deck without studs has no strength there.
+    `concrete` is the joint within the deck, and `factor` is on all strengths. Studs resist shear and uplift by the area
+    of the flange, and concrete what is pressed. A deck without studs has no strength there.
     """
     strength, moduli = given(concrete.strength), given(concrete.moduli)
     studs = span.studs(float(strength.compression_pa) / factor, moduli)

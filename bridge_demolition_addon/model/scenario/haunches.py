@@ -35,7 +35,7 @@ class Haunches(Table):
     )
 
     def depth_over_m(self, number: int, count: int) -> float:
-        """Return how much deeper the deck is over a support, by its number from 0, of so many."""
+        """Return how much deeper the deck is over a support, by its number from 0 and the number of supports."""
         return self.depth_m if number in self._numbers(count) else 0.0
 
     def outline(self, axes_m: Sequence[float], half_m: float) -> tuple[np.ndarray, np.ndarray]:

@@ -139,7 +139,7 @@ class ConnectionBetween(JointSettings):
 
     @property
     def changes_joint(self) -> bool:
-        """Return whether type, freedom or springs are given; then those of `[connections]` do not count."""
+        """Return whether type, freedom or springs are given; then the keys of `[connections]` do not count."""
         return any(getattr(self, name) is not None for name in _JOINT)
 
     def _check_together(self) -> None:

@@ -1,6 +1,6 @@
 """What Blender data keeps of a scenario: tables as JSON, or as one value for each key.
 
-Files saved before have to stay readable: a table in a list has its name under ``table`` beside its keys, and a key
+Files saved before have to stay readable: a table in a list has its name under ``table`` among its keys, and a key
 without a value is left out where each has a property of its own.
 """
 

@@ -1,4 +1,4 @@
-"""Machines beside a bridge, and the programme of works in hours: shifts, possessions, tasks and what is late."""
+"""Machines next to a bridge, and the programme of works in hours: shifts, possessions, tasks and what is late."""
 
 import math
 from collections.abc import Iterator, Mapping, Sequence

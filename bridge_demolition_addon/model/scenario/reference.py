@@ -1,4 +1,4 @@
-"""Reference of all keys of a scenario file, made from the dataclasses that check them.
+"""Reference of the keys of a scenario file, made from the dataclasses that check them.
 
 ``python -m bridge_demolition_addon.model.scenario.reference docs/scenario.md`` writes it.
 """

@@ -213,7 +213,7 @@ class BridgeReinforcement(BarRule):
             )
 
     def check_ratios(self, members: Sequence[str]) -> None:
-        """Check that ratios beside a design are of no other than these members, which it leaves out."""
+        """Check that ratios next to a design are of these members only, which it leaves out."""
         if self.is_designed and any(table.member not in members for table in self.ratios):
             self._refuse_both()
 

@@ -151,8 +151,8 @@ class Scenario(Table):
     def joints(self) -> tuple[Joint, ...]:
         """Return the joint of connections that follow no rule, then that of each rule, then that of each bearing.
 
-        Rules are those of `connections.between`. With reinforcement, the same follow for members that have bars. Those
-        of steelwork come last, and after them those of decks with girders.
+        Rules are from `connections.between`. With reinforcement, the same follow for members that have bars. Joints of
+        steelwork come last, and after them joints of decks with girders.
         """
         return tuple(self.named_joints.values())
 
@@ -221,12 +221,12 @@ class Scenario(Table):
 
     @property
     def bodies_in_contact(self) -> tuple[BodyInContact, ...]:
-        """Tables of all bodies that touch others."""
+        """Tables of the bodies that touch others."""
         ball = () if self.ball is None else (self.ball,)
         return (self.shards, self.ground, *self.ground.surfaces, *ball, *self.jackhammers)
 
     def surface_of(self, body: BodyInContact) -> SurfaceValues:
-        """Return friction and restitution of a body by itself, as Bullet multiplies them with those of another."""
+        """Return friction and restitution of a body by itself, as Bullet multiplies them with another's."""
         return body.own_values if self.contacts is None else self.contacts.of_body(body.contact)
 
     @property
@@ -248,7 +248,7 @@ class Scenario(Table):
         return tuple(chain.from_iterable(value if isinstance(value, tuple) else (value,) for value in held if value))
 
     def actions_scaled_in_time(self, factor: float) -> dict[str, Any]:
-        """Return the fields of all actions, for frames that last longer by a factor, as `replace` takes them."""
+        """Return the fields of actions, for frames that last longer by a factor, as `replace` takes them."""
         held = {name: getattr(self, name) for name in action_fields(type(self))}
         return {
             name: tuple(action.scaled_in_time(factor) for action in value)
@@ -260,7 +260,7 @@ class Scenario(Table):
 
     @property
     def changes(self) -> tuple[Change, ...]:
-        """Changes to the structure, but for those of blast zones, which depend on its model."""
+        """Changes to the structure, without blast zones, which depend on its model."""
         return tuple(chain.from_iterable(action.changes(self) for action in self.actions))
 
     def resolved(self) -> dict[str, Any]:
@@ -444,7 +444,7 @@ def run_tables() -> dict[str, tuple[type[PlannedAction], ...]]:
 
 
 def no_actions(scenario: Scenario) -> dict[str, Any]:
-    """Return the fields of all actions where nothing is done to the bridge, as `replace` takes them."""
+    """Return the fields of actions where nothing is done to the bridge, as `replace` takes them."""
     held = {name: getattr(scenario, name) for name in action_fields(Scenario)}
     return {name: () if isinstance(value, tuple) else None for name, value in held.items()}
 
@@ -467,7 +467,7 @@ def studs_of(span: GirderSpan, scenario: Scenario) -> StudRow | None:
 
 
 def bearing_tables(scenario: Scenario) -> tuple[Bearing, ...]:
-    """Return all bearings, first those that count before others: the scenario's own, then those of its bridge."""
+    """Return all bearings, first the ones that count before others: the scenario's own, then its bridge's."""
     return (*scenario.bearings, *(scenario.bridge.bearing_tables if scenario.bridge else ()))
 
 

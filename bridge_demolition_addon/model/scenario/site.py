@@ -12,7 +12,7 @@ from ..schema import Table, key
 
 
 def check_outline(corners_m: Sequence[tuple[float, float]], name: str) -> None:
-    """Check that the corners under a key are those of an area in plan, in order around it."""
+    """Check that the corners under a key surround an area in plan, in order around it."""
     if len(corners_m) < FEWEST_CORNERS:
         raise ScenarioError(f"{name} has {len(corners_m)} positions: expected at least {FEWEST_CORNERS}")
     if sides_cross(np.array(corners_m)):

@@ -213,12 +213,12 @@ class Steelwork(Table):
 
     @property
     def all_nodes(self) -> tuple[SteelNode, ...]:
-        """Its own nodes, and those of its trusses and girders."""
+        """Its own nodes, then its trusses' and girders'."""
         return (*self.nodes, *(SteelNode(**keys) for span in self._spans for keys in span.nodes()))
 
     @property
     def all_members(self) -> tuple[SteelMember, ...]:
-        """Its own bars, and those of its trusses and girders."""
+        """Its own bars, then its trusses' and girders'."""
         return (*self.members, *(SteelMember(**keys) for span in self._spans for keys in span.members()))
 
     @property
@@ -240,7 +240,7 @@ class Steelwork(Table):
         return strengths_pa(self.grade_of(member), member.steel_section.thickest_m)
 
     def end_share(self, member: SteelMember, end: int) -> float:
-        """Return the strength of the joint at the first or last end of a bar, as a part of that of the bar."""
+        """Return the strength of the joint at the first or last end of a bar, as a part of the bar's."""
         bolts, by_pattern = member.bolts(end), self.bolted_end(member, end)
         if bolts is None:
             return member.end_strengths[end]
@@ -347,7 +347,7 @@ def axis_m(member: SteelMember, places: Mapping[str, np.ndarray]) -> np.ndarray:
 
 
 def bending_to_axial_ratio_of(steelwork: Steelwork, member: SteelMember, end: int | None) -> tuple[float, float]:
-    """Return the resistance of a joint of a bar in bending about y and z over that in axial force, by those of the bar.
+    """Return a joint's share of its bar's resistance in bending about y and z over its share in axial force.
 
     The joint is that at its first or last end, or one within it.
     """

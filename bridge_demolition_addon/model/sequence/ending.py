@@ -245,8 +245,8 @@ FASTEST = 10.0
 class Rest:
     """Find frame by frame whether everything rests, and since when.
 
-    By energy: everything rests while its kinetic energy per mass is below that of bodies which all move at the speed
-    limit, v² / 2, and no body is `FASTEST` times as fast. So one that creeps on a contact does not keep a run alive,
+    By energy: everything rests while its kinetic energy per mass is below the value v² / 2 of bodies that all move at
+    the speed limit, and no body is `FASTEST` times as fast. So one that creeps on a contact does not keep a run alive,
     and one that flies does. A rotation at the limit of angular velocity counts as much as that speed; what sleeps rests
     anyway. Everything has to rest for `hold_s`; before `not_before_s` no rest counts, as something is still to happen.
     Speeds come from positions and rotations of two frames, so that a solver's trembling within a frame is not motion.
@@ -267,7 +267,7 @@ class Rest:
         asleep: np.ndarray,
         masses_kg: np.ndarray,
     ) -> None:
-        """Look at a frame: its time, and positions (n, 3), rotations (n, 3, 3), sleep (n,) and masses of all bodies."""
+        """Look at a frame: its time, and positions (n, 3), rotations (n, 3, 3), sleep (n,) and masses of the bodies."""
         if self._last and time_s > self._last[0]:
             before_s, before_m, before = self._last
             step_s = time_s - before_s

@@ -132,7 +132,7 @@ class PlacedLift:
         return math.fsum((forces_n * unit(self.hook_m - self.points_m)[:, 2]).tolist())
 
     def hanging(self, held: np.ndarray, model: Model) -> Hanging:
-        """Return how those of its shards (h,) hang that are cut free with slings on them."""
+        """Return how its shards (h,) hang that are cut free with slings on them."""
         mass_kg, centre_m = _gravity(model, held)
         weight_n = STANDARD_GRAVITY_M_S2 * mass_kg
         return hanging(self.points_m, self.hook_m, centre_m, weight_n, self.lift.elastic_n)

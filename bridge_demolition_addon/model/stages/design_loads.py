@@ -71,7 +71,7 @@ def design_load_sentences(loads: Sequence[DesignLoad]) -> Iterator[str]:
 
 
 def load_cases(scenario: Scenario, model: Model) -> Iterator[tuple[str, np.ndarray]]:
-    """Yield names of positions, and loads (6, n) on the shards beside their weight.
+    """Yield names of positions, and loads (6, n) on the shards on top of their weight.
 
     Weight and these together, times 1.35, are 1.35 G + 1.5 Q.
     """

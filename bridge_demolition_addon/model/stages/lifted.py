@@ -291,7 +291,7 @@ def _row(number: int, time_s: float, part: PartOnHook) -> dict[str, Any]:
 
 
 def hook_cells(parts: Sequence[PartOnHook]) -> Mapping[str, Any]:
-    """Return what the row of a stage says of all hooks together; nothing is known where there are none."""
+    """Return what the row of a stage says of the hooks together; nothing is known where there are none."""
     on_hooks = [part for part in parts if part.state != GONE]
     if not on_hooks:
         return {"on_hooks_kN": None, "hook_used": None}

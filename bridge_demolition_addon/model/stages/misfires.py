@@ -31,7 +31,7 @@ _STANDS = 0.99
 
 @dataclass(frozen=True, slots=True)
 class Misfire:
-    """The bridge after all changes but one zone. Masses are those of what a connection to a support held at first."""
+    """The bridge after all changes but one zone. Masses count what a connection to a support held at first."""
 
     fails: str  # name of the zone, or `ALL_FIRE`
     stands_kg: float
@@ -44,7 +44,7 @@ class Misfire:
 def misfires(scenario: Scenario, bridge: StandingBridge, progress: Callable[[int, int], None]) -> list[Misfire]:
     """Return what comes down if all zones fire, and without each that does; nothing where there are none.
 
-    Equipment does not stand on the bridge then. `progress` is called with the numbers of those done and of all.
+    Equipment does not stand on the bridge then. `progress` is called with the number done and the total.
     """
     model = bridge.model
     firings = zone_firings(scenario, model.members)

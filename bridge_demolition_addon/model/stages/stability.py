@@ -57,8 +57,8 @@ def stability_of(
 ) -> Stability:
     """Return whether the bridge of a scenario stands under its own weight.
 
-    Statics follows elastic connections, also where those of the run are rigid or break by one force. What merely lies
-    on others is held by bearings that hold no uplift, where faces are level. Without `with_factor` no load factor is
+    Statics follows elastic connections, also where the run's are rigid or break by one force. What merely lies on
+    others is held by bearings that hold no uplift, where faces are level. Without `with_factor` no load factor is
     looked for, which takes most of the time, and breaks of large models are not followed; None has one where it takes
     seconds. Calls `pause` before each solution. What `resting` has worked out is taken from there.
     """
@@ -186,7 +186,7 @@ def _member_of(model: Model, connection: int) -> str:
 
 
 def _loose_contacts(model: Model, paths: SupportPaths) -> list[tuple[int, int]]:
-    """Return the members of which loose shards lie on others with level faces, and those below, without connections."""
+    """Return members with loose shards on level faces of others, and the members below, without connections."""
     of_body = np.append(model.member_of_shard, -1)[model.connections.pairs]
     connected = {tuple(pair) for pair in np.sort(of_body, axis=1).tolist()}
     loose = np.unique(model.member_of_shard[paths.loose]).tolist()

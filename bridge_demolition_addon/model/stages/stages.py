@@ -89,7 +89,7 @@ def stages_of(
     with_factor: bool = True,
     keep: Callable[[Sequence[Stage]], None] = lambda stages: None,
 ) -> list[Stage]:
-    """Return the stages of a scenario; after each, call `progress` with the numbers of those done and of all.
+    """Return the stages of a scenario; after each, call `progress` with the number done and the total.
 
     `keep` is called before with all that are done. Without factor the collapse load factor is not sought, which takes
     most of the time.
@@ -153,7 +153,7 @@ def stages_of(
 
 
 def _among(parts: Sequence[PartOnHook], model: Model) -> np.ndarray:
-    """Return which shards (n,) slings hold, maybe beside connections: bearings that they relieve hold nothing."""
+    """Return which shards (n,) slings hold, maybe along with connections: bearings that they relieve hold nothing."""
     held = np.zeros(len(model.shards), bool)
     for part in parts:
         held[part.shards] = True
@@ -280,7 +280,7 @@ def pull_loads(model: Model, pulls: Sequence[Pull], removed: np.ndarray) -> np.n
 
 
 def reactions_n(model: Model, stage: Stage) -> np.ndarray:
-    """Return the sum (3,) of the forces of all supports on the bridge in a stage, N."""
+    """Return the sum (3,) of the supports' forces on the bridge in a stage, N."""
     forces = [support.reaction(stage.standing.loads)[0] for support in supports_of(model)]
     return np.sum(forces, axis=0) if forces else np.zeros(3)
 
@@ -299,7 +299,7 @@ def _planned_steps(scenario: Scenario, model: Model) -> tuple[CraneWork, list[tu
 
 
 def _steps(scenario: Scenario, events: Sequence[Event], lifts_s: set[float]) -> list[tuple[float, list[Event]]]:
-    """Return times at which something changes, from 0 on, and the changes; `lifts_s` are those of lifts."""
+    """Return times at which something changes, from 0 on, and the changes; `lifts_s` are the lifts' times."""
     times = {0.0, *(event.time_s for event in events)} | lifts_s
     times |= {pull.start_s for pull in scenario.pulls}
     times |= {load.until_s for load in scenario.dead_loads if load.until_s is not None}

@@ -109,10 +109,10 @@ class StandingBridge:
     ) -> Standing:
         """Return the bridge at rest with the connections that are `intact` (m,), and `left` (m,) of their strength.
 
-        Loads (6, n) are forces and moments on the shards, beside their weight; all are times the load factor. Without
-        `every_section`, only sections of connections that are overloaded by themselves are judged: no other breaks.
-        Where bars cross what is overloaded, that cracks, if the bridge then stands. Where bars stand `bare`, all
-        that is overloaded breaks or cracks; `at_worst` is as in `StandingBare`.
+        Loads (6, n) are forces and moments on the shards, on top of their weight; all are times the load factor.
+        Without `every_section`, only sections of connections that are overloaded by themselves are judged: no other
+        breaks. Where bars cross what is overloaded, that cracks, if the bridge then stands. Where bars stand `bare`,
+        all that is overloaded breaks or cracks; `at_worst` is as in `StandingBare`.
         """
         standing = self._elastic(intact, left, loads, factor, every_section=every_section, cuts=cuts)
         if bare is not None:
@@ -430,8 +430,8 @@ class MostUsed:
 def most_used_of(bridge: StandingBridge, sections: SectionsWithBars, standing: Standing) -> MostUsed | None:
     """Return what is used most; None where nothing is held.
 
-    Faces within members with layers of bars are judged by their sections, and those of girders under slabs by their
-    links: such a face cracks, and the bars hold.
+    Faces within members with layers of bars are judged by their sections, faces of girders under slabs by their links:
+    such a face cracks, and the bars hold.
     """
     model = bridge.model
     of_faces = np.where(sections.judged, np.nan, standing.used)

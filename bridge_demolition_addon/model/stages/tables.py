@@ -187,7 +187,7 @@ def _members_of(model: Model, shards: np.ndarray) -> list[str]:
 
 
 def all_reaction_rows(stages: Sequence[Stage], model: Model) -> list[dict[str, Any]]:
-    """Return the rows of all supports in all stages, stage by stage."""
+    """Return the rows of the supports, stage by stage."""
     supports = supports_of(model)
     return [
         _reaction_row(number, stage, support) for number, stage in enumerate(stages, start=1) for support in supports
@@ -202,7 +202,7 @@ def _reaction_row(number: int, stage: Stage, support: SupportPoint) -> dict[str,
 
 
 def utilisation_rows(number: int, stage: Stage, bridge: StandingBridge) -> Iterable[dict[str, Any]]:
-    """Yield the rows of all connections that are there in a stage."""
+    """Yield the rows of the connections that are there in a stage."""
     model, standing = bridge.model, stage.standing
     governed_by = bridge.governed_by(standing)
     for row in np.flatnonzero(np.isfinite(standing.used)).tolist():
@@ -356,7 +356,7 @@ BEARING_COLUMNS = (
 
 
 def bearing_rows(stages: Sequence[Stage], model: Model) -> Iterator[dict[str, Any]]:
-    """Yield the rows of all bearings in all stages; none without `[[bearings]]`.
+    """Yield the rows of the bearings in every stage; none without `[[bearings]]`.
 
     Moments are about the middle of the axis. What has lifted off has no force, and what is gone no `left_share`.
     """

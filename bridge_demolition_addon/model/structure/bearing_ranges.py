@@ -233,18 +233,18 @@ def _redundant(model: Model, axes: Sequence[BearingAxis], bearings: Sequence[Bea
 
 
 def other_seed(scenario: Scenario, number: int = 1) -> int:
-    """Return the seed of another cut, so many after the scenario's own."""
+    """Return the seed of another cut, counted from the scenario's own."""
     return (scenario.seed + number) % (LARGEST_INTEGER + 1)
 
 
 def next_cut(scenario: Scenario, model: Model, number: int = 1) -> Model | None:
-    """Return the bridge cut by another seed, so many after its own; None where that cuts it alike."""
+    """Return the bridge cut by another seed, counted from its own; None where that cuts it alike."""
     cut = build_model(replace(scenario, seed=other_seed(scenario, number)), model.members)
     return None if np.array_equal(cut.centres_m, model.centres_m) else cut
 
 
 def bearing_ranges(scenario: Scenario, model: Model, count: int) -> BearingRanges:
-    """Return what the bearings of an elastic bridge carry in so many cuts: by its seed, and by those that follow.
+    """Return what the bearings of an elastic bridge carry in a number of cuts: by its seed, and by the next ones.
 
     Raises
     ------
@@ -277,7 +277,7 @@ def bearing_ranges(scenario: Scenario, model: Model, count: int) -> BearingRange
 
 
 def _upwards_n(model: Model, rest: Equilibrium) -> np.ndarray:
-    """Upward forces (b,) of all bearings of a model at rest."""
+    """Upward forces (b,) of the bearings of a model at rest."""
     return np.array([bearing.force_n[2] for bearing in given(model.bearings).forces(loads_of(model, rest))])
 
 

@@ -56,7 +56,7 @@ class Pads(ConnectionSource):
         self._placed = _placed_bearings(self._tables, cut.members)
 
     def takes(self, pairs: np.ndarray) -> np.ndarray:
-        """Return those of two members with a bearing."""
+        """Return which contacts (c,) are between two members with a bearing."""
         members, found = self.cut.members_of(pairs), np.zeros(len(pairs), bool)
         for bearing in self._placed:
             for one, other in ((bearing.above, bearing.below), (bearing.below, bearing.above)):
@@ -94,7 +94,7 @@ class Pads(ConnectionSource):
         return followed.on_bearings(ModelBearings(tuple(names), springs).among(moves, len(rows)))
 
     def shaped(self, shards: tuple[TriangleMesh, ...]) -> tuple[TriangleMesh, ...]:
-        """Return shards of which those on bearings are thinner from below: only the pads touch both members."""
+        """Thin shards on bearings from below: only the pads touch both members."""
         changed = list(shards)
         for bearing in self._placed:
             for shard in np.flatnonzero(self.cut.member_of_shard == bearing.above).tolist():
@@ -237,7 +237,7 @@ def shards_at(points_m: np.ndarray, candidates: np.ndarray, shards: Sequence[Tri
 
 
 def _groups(number: int, name: str, pads: Sequence[_Pad], pairs: np.ndarray) -> list[_Group]:
-    """Return the springs of all pads by the pair of shards (p, 2) that they are between."""
+    """Return the springs of pads by the pair of shards (p, 2) that they are between."""
     shares = []
     first = 0
     for pad in pads:

@@ -80,7 +80,7 @@ class PlacedZone:
 
     @property
     def burden_m(self) -> float:
-        """Distance of the charges to the nearest free face beside them or behind them."""
+        """Distance of the charges to the nearest free face at their side or behind them."""
         beside = (self.width_m - (self.zone.rows - 1) * self.row_spacing_m) / 2.0
         behind = self.thickness_m - self.zone.depth_m + length_of_charge_m(self.zone) / 2.0
         return min(beside, behind)
@@ -115,7 +115,7 @@ class PlacedZone:
 
     @property
     def effective_kg_m3(self) -> float:
-        """The same as that of an explosive with a relative strength of 100, which the thresholds are for."""
+        """The same for an explosive with a relative strength of 100, which the thresholds are for."""
         return float(specific_charge_kg_m3(self.zone.mass_kg, self.volume_m3, self.zone.made_of.relative_strength))
 
     @property
@@ -361,7 +361,7 @@ def grams_per_tonne(explosive_kg: float, members: Sequence[Member]) -> float:
 
 
 def zone_totals(zones: Sequence[PlacedZone], members: Sequence[Member]) -> Iterator[Fact]:
-    """Yield totals of all zones, beside what is recorded of other jobs."""
+    """Yield totals of the zones, next to what is recorded of other jobs."""
     mass_kg = math.fsum(placed.zone.mass_kg for placed in zones)
     volume_m3 = math.fsum(placed.volume_m3 for placed in zones)
     holes, drilled_m = sum(placed.zone.holes for placed in zones), math.fsum(placed.zone.drilled_m for placed in zones)

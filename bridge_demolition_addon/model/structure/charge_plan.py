@@ -62,7 +62,7 @@ class FiredRow:
 
 @dataclass(frozen=True, slots=True)
 class Totals:
-    """Totals of all zones and cuts, also of those that are planned not to fire; volume and holes are those of zones."""
+    """Totals of zones and cuts, also of the ones that are planned not to fire; volume and holes are the zones'."""
 
     mass_kg: float
     mass_in_holes_kg: float
@@ -223,7 +223,7 @@ def _totals(
 
 
 def _at_neighbour(neighbour: Neighbour, rows: Sequence[FiredRow], law: SiteLaw | None) -> AtNeighbour:
-    """Return the largest effects of all that can fire together, as if it all were where its nearest part is.
+    """Return the largest effects of what can fire together, as if it all were where its nearest part is.
 
     Pressures of what is stemmed and of what is bare add up.
     """

@@ -57,7 +57,7 @@ class DeckContacts:
     lengths_m, widths_m : (c,) float
         Length along the girder, and width of what touches in the mean.
     flanges_m : (c,) float
-        Width of the flange, on which another shard may lie beside it.
+        Width of the flange, on which another shard may lie next to it.
     levers_m : (c,) float
         How far along the road from the contact what presses it acts: half-way between the points from which the
         stiffness of the two is measured. There both are as far as a beam that bends evenly is from its tangents.
@@ -85,7 +85,7 @@ class DecksOnGirders(ConnectionSource):
     """Contacts of decks with the girders below them."""
 
     def takes(self, pairs: np.ndarray) -> np.ndarray:
-        """Return those of a deck on girders and of steel."""
+        """Return which contacts (c,) are between a deck on girders and steel."""
         of_steel = np.array([*(member.steel is not None for member in self.cut.members), False], bool)
         first, second = self.cut.members_of(pairs).T
         return np.asarray((self._of_decks[first] & of_steel[second]) | (of_steel[first] & self._of_decks[second]))
@@ -258,7 +258,7 @@ def points_above_girders(
     shards: Sequence[TriangleMesh],
     points_m: np.ndarray,
 ) -> np.ndarray:
-    """Return the points (n, 3) from which the stiffness of shards is measured, with those of decks above their girders.
+    """Return the points (n, 3) from which the stiffness of shards is measured, in decks above their girders.
 
     A shard as long as the piece below it turns and stretches with that: its point is where the piece's is along the
     road. Else studs would slip where neither slips in reality.
@@ -306,7 +306,7 @@ def _owners(spans: Sequence[GirderSpan], members: Sequence[Member]) -> tuple[np.
 
 
 def _in_common(one: TriangleMesh, other: TriangleMesh, axis: int) -> float:
-    """Return how long two shards are beside each other along an axis."""
+    """Return over what length two shards overlap along an axis."""
     (begin, end), (first, last) = one.bounds[:, axis].tolist(), other.bounds[:, axis].tolist()
     return float(min(end, last) - max(begin, first))
 

@@ -67,7 +67,7 @@ class CutBridge(CutMembers):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ConnectionRows:
-    """m connections, those of one source after those of another.
+    """m connections, source after source.
 
     Attributes
     ----------
@@ -125,9 +125,9 @@ class ConnectionRows:
         joints: np.ndarray,
         moments_m4: np.ndarray | None = None,
     ) -> tuple[ConnectionRows, np.ndarray]:
-        """Return these connections and c others of a source, of which only those count that move; and which (c,) do.
+        """Return these connections and the moving ones among c others of a source; and which (c,) move.
 
-        Without moments the others have those of the faces of their shards.
+        Without moments the others take their shards' faces.
         """
         moves = ~np.append(cut.fixed, True)[connections.pairs].all(axis=1)  # the ground, at index -1, is fixed as well
         kept = connections.only(moves)
@@ -181,7 +181,7 @@ class ConnectionSource:
         return rows
 
     def stiffen(self, rows: ConnectionRows, matrices: np.ndarray) -> None:
-        """Set the stiffness (m, 6, 6) of its connections, where it is not that of faces."""
+        """Set the stiffness (m, 6, 6) of its connections, where it differs from faces."""
 
     def shaped(self, shards: tuple[TriangleMesh, ...]) -> tuple[TriangleMesh, ...]:
         """Return shards with gaps as bodies have them."""

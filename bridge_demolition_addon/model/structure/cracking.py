@@ -58,7 +58,7 @@ class StandingBare:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SteelBeside:
-    """Steel beside the connections of a bridge: bars that stand bare, and tendons after the cuts so far."""
+    """Steel that helps the connections of a bridge: bars that stand bare, and tendons after the cuts so far."""
 
     bare: StandingBare | None = None
     tendons: TendonForces | None = None
@@ -184,7 +184,7 @@ class CrackedBridge:
 
     @property
     def loads(self) -> ConnectionLoads:
-        """Return the loads of all connections and bars on their first shards."""
+        """Return the loads of connections and bars on their first shards."""
         loads = self._structure.loads
         return ConnectionLoads(loads[:3].T, loads[3:].T, self._model.connections.points)
 
@@ -277,7 +277,7 @@ class RestingModel:
         return model_at_rest(self.model, self.joints)
 
     def cracked(self, pause: Pause = lambda: None) -> CrackedBridge | None:
-        """Return it with its cracks, of which nothing may be changed; None without bars."""
+        """Return it with its cracks, not to be changed; None without bars."""
         if self._cracked is None:
             self._cracked = cracked_by_weight(self.model, self.joints, self.rest, pause)
         return self._cracked

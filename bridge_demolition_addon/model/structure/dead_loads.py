@@ -42,7 +42,7 @@ def lying_load(load: DeadLoad, members: Sequence[Member]) -> LyingLoad:
     Raises
     ------
     ScenarioError
-        No member has its name or kind, or the load lies beside one.
+        No member has its name or kind, or the load lies off it.
     """
     parts = [_on_member(load, members[row]) for row in members_named(load.member, members, "dead_loads.member")]
     points, masses = zip(*parts, strict=True)

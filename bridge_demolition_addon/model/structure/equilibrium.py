@@ -53,14 +53,14 @@ def overloaded(model: Model, rest: Equilibrium, joints: Sequence[Joint]) -> np.n
 
 
 def loads_of(model: Model, rest: Equilibrium) -> ConnectionLoads:
-    """Return the loads on the first bodies of all connections of a model at rest."""
+    """Return the connections' loads on their first bodies, of a model at rest."""
     return ConnectionLoads(rest.loads[:3].T, rest.loads[3:].T, model.connections.points)
 
 
 def force_utilisations(model: Model, rest: Equilibrium, joints: Sequence[Joint]) -> np.ndarray:
     """Return the utilisation of the breaking force of each connection (m,) of a model at rest; nan without one.
 
-    It is the largest of all directions: Bullet compares forces along three axes, and moments about them in N·m, one by
+    It is the largest of any direction: Bullet compares forces along three axes, and moments about them in N·m, one by
     one with the same number.
     """
     forces = np.array([np.nan if joint.breaking_force_n is None else joint.breaking_force_n for joint in joints])

@@ -69,7 +69,7 @@ def _between(ends: np.ndarray, along: int, between_m: tuple[float, float]) -> np
 
 @dataclass(frozen=True, slots=True, eq=False)
 class BarRows:
-    """b rows of bars, each those of one layer of one member across the face of one connection.
+    """b rows of bars, each of one layer of one member across the face of one connection.
 
     Attributes
     ----------
@@ -120,7 +120,7 @@ class MemberBars(ConnectionSource):
     """Bars of members across faces: bars end where their member does, but for those between members of one piece."""
 
     def barred(self, rows: ConnectionRows) -> ConnectionRows:
-        """Return connections with bars, whose joints are those of concrete that has no steel in it."""
+        """Return connections with bars; their joints are of concrete without steel."""
         cut = self.cut
         layers = all_layers(cut.scenario, cut.members)
         if not layers:
@@ -298,7 +298,7 @@ def _anchored(
 ) -> np.ndarray:
     """Return the parts (k,) of their forces (k,) that straight bars resist by bond, from there to the member's ends.
 
-    `positions` (k, 3) are those of the bars by their forces, without the skew of the member, but of one on a line of
+    `positions` (k, 3) of the bars are weighted by their forces, without the skew of the member, but of one on a line of
     its own. Where a layer says itself where it begins or ends, it has its whole strength.
     """
     axis = layer.axes[0]
@@ -326,7 +326,7 @@ def _are_within(of_pair: np.ndarray) -> np.ndarray:
 
 
 def _corners(shards: Sequence[TriangleMesh], connections: Connections) -> tuple[np.ndarray, np.ndarray]:
-    """Face (t,) and corners (t, 3, 3) of all triangles in the faces of connections, in the axes of the world."""
+    """Face (t,) and corners (t, 3, 3) of the triangles in the faces of connections, in the axes of the world."""
     own = [shards[first] for first in connections.pairs[:, 0]]
     face, corners = triangles_in_faces(own, connections.points, connections.normals)
     across = section_axes(connections.normals)[:, :, 1:]

@@ -17,7 +17,7 @@ from .connection_source import ConnectionRows, ConnectionSource, CutBridge
 
 
 class FaceConnections(ConnectionSource):
-    """Connections of all pairs that no other source takes."""
+    """Connections of the pairs that no other source takes."""
 
     def __init__(self, cut: CutBridge, others: Sequence[ConnectionSource]):
         super().__init__(cut)
@@ -65,8 +65,8 @@ def rules_of_pairs(
 ) -> np.ndarray:
     """Return which rule pairs of shards follow, (k,) int: 0 for none, 1 for the first, and so on.
 
-    The first rule counts that names both members. `member_of_shard` (n,) holds indices of members, `pairs` (k, 2) those
-    of shards, or -1 for the ground.
+    The first rule counts that names both members. `member_of_shard` (n,) holds indices of members, `pairs` (k, 2)
+    indices of shards, or -1 for the ground.
     """
     ground = len(members)
     rule_between = np.zeros((ground + 1, ground + 1), int)

@@ -113,7 +113,7 @@ def _breaking_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
 
 
 def _grades_text(steelwork: Steelwork) -> str:
-    """Return the grades of all bars, with their yield strengths by thickness."""
+    """Return the grades of the bars, with their yield strengths by thickness."""
     grades: dict[str, set[float]] = {}
     for bar in steelwork.all_members:
         yield_n_mm2 = steelwork.yield_and_ultimate_pa(bar)[0] / NEWTON_PER_SQUARE_MILLIMETRE
@@ -136,7 +136,7 @@ def _piece_facts(model: Model) -> Iterator[Fact]:
 def _pieces(model: Model) -> list[list[str]]:
     """Return the names of the members in each piece that connections hold together, the largest piece first.
 
-    No connection lies between two shards that never move: those of one member belong together by that.
+    No connection lies between two shards that never move: shards of one member belong together by that.
     """
     count = len(model.shards)
     pairs = model.connections.pairs
@@ -343,7 +343,7 @@ def _with_cracks(resting: RestingModel) -> CrackedBridge | None:
 
 
 def _loose_facts(model: Model, is_held: np.ndarray, held: int) -> Iterator[Fact]:
-    """Yield what no connection to a support holds, and in which members that is most of all."""
+    """Yield what no connection to a support holds, and in which members that is most."""
     loose = ~is_held & ~model.fixed
     mass_kg = float(model.masses_kg[loose].sum())
     share = mass_kg / float(model.masses_kg[~model.fixed].sum())
@@ -560,7 +560,7 @@ def _described(span: GirderSpan, studs: StudRow) -> str:
 def _used(
     scenario: Scenario, model: Model, rest: Equilibrium, rows: np.ndarray, counts: np.ndarray, studs: StudRow
 ) -> Iterator[Fact]:
-    """Yield the shear and uplift of the stud that has most of each, of contacts with so many studs (c,), 1 or more."""
+    """Yield the shear and uplift of the stud that has most of each, of contacts with their studs (c,), 1 or more."""
     forces, factor = loads_of(model, rest).forces_n[rows], scenario.connections.strength_factor
     shear = np.sqrt(np.square(forces[:, :2]).sum(axis=1)) / counts
     lifted = np.maximum(-forces[:, 2], 0.0) / counts

@@ -21,7 +21,7 @@ _LEAST_SAID = 1e-9
 class FiringPair:
     """What fires at one planned time and what fires at the next, so much later.
 
-    `chance` is that of one detonator of the later time to fire before one of the earlier.
+    `chance` is the probability that one detonator of the later time fires before one of the earlier.
     """
 
     earlier: tuple[str, ...]

@@ -97,7 +97,7 @@ def _places(
     shards: Sequence[TriangleMesh],
     connections: Connections,
 ) -> list[tuple[int, np.ndarray, np.ndarray]]:
-    """Return connection, positions (p, 3) and their areas (p,) of all footings of a member."""
+    """Return connection, positions (p, 3) and their areas (p,) of a member's footings."""
     faces = [_standing_triangles(shards[connections.pairs[row, 0]], connections.points[row, 2]) for row in rows]
     if not all(map(len, faces)):
         raise ScenarioError(f"{member.name} stands on a slope: expected level ground under members with foundations")

@@ -1,4 +1,4 @@
-"""Models that are kept from run to run: several runs of a process, such as those of an optimisation, share a bridge."""
+"""Models that are kept from run to run: several runs of a process, as in an optimisation, share a bridge."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class KeptModels:
     Parameters
     ----------
     most_bytes
-        How large the arrays of all models may be together. The last model is kept whatever its size.
+        How large the models' arrays may be together. The last model is kept whatever its size.
     """
 
     def __init__(self, most_bytes: int = MOST_BYTES) -> None:

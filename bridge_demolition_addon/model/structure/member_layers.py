@@ -1,4 +1,4 @@
-"""Bars of members: layers that run the same way, beside the same two sides, and their sections; and spread bars."""
+"""Bars of members: layers that run the same way, along the same two sides, and their sections; and spread bars."""
 
 from __future__ import annotations
 
@@ -30,9 +30,9 @@ from ..materials import BarLayer, ReinforcedSection
 
 @dataclass(frozen=True, slots=True)
 class LayersOfMember:
-    """Layers of bars of a member that run the same way, beside the same two sides.
+    """Layers of bars of a member that run the same way, along the same two sides.
 
-    All is that of the member without skew: its layers are skewed with it. It lies between `lowest` and `highest` along
+    Everything is without the member's skew: its layers are skewed with it. It lies between `lowest` and `highest` along
     the axis across the layers, m, and the layers at `levels_m`, where it is as wide as `widths_m`; `width_m` is its
     whole width.
     """
@@ -53,7 +53,7 @@ class LayersOfMember:
         return self.layers[0].axes
 
     def section(self, compressive_pa: float, factor: float = 1.0) -> ReinforcedSection:
-        """Return the section, with depths from where it is highest, and bars so many times as strong."""
+        """Return the section, with depths from where it is highest, and bars stronger by a factor."""
         return ReinforcedSection(
             self.highest - self.lowest,
             self.width_m,
@@ -68,7 +68,7 @@ class LayersOfMember:
         return [force / (MODULUS_PA * layer.area_m2) for layer, force in zip(self.layers, forces_n, strict=True)]
 
     def bent_strains(self, factor: float, young_pa: float) -> list[float]:
-        """Return by what the edge beside each layer stretches as that yields, in a section of concrete that is bent.
+        """Return by what the edge next to each layer stretches as that yields, in a section of concrete that is bent.
 
         It is d - x that bars stretch by their strain, with x pressed elastically: b x² / 2 = α A (d - x), of each layer
         alone. This is the fully cracked state of EN 1992-1-1:2004, 7.4.3 (3).
@@ -215,7 +215,7 @@ class SpreadBars:
         return factor * self.layer.ratio * self.layer.yield_pa * crossed_m2
 
     def opening_m(self, compressive_pa: float, steel: Steel) -> float:
-        """Return the opening of one crack at which they rupture: of the length between cracks, or of all of it."""
+        """Return the opening of one crack at which they rupture: of the length between cracks, or its whole."""
         layer, tensile_pa = self.layer, tensile_strength_pa(compressive_pa)
         spacing_m = min(spacing_of_ratio_m(layer.diameter_m, layer.ratio), self.length_m)
         own = replace(steel, yield_pa=layer.yield_pa)

@@ -89,7 +89,7 @@ _SHARDS_OF_PIECE, _MOST_PIECES = 6, 12
 
 @dataclass(frozen=True, slots=True)
 class FracturedMembers:
-    """The n shards of all members, one member after the other, without gaps.
+    """The members' n shards, one member after the other, without gaps.
 
     `member_of_shard` (n,) holds indices of members, `centres_m` (n, 3) centres of mass, and `points_m` (n, 3) the
     points whose Voronoi cells the shards are. `faces` are those that neighbouring shards share, the joints of steelwork
@@ -186,7 +186,7 @@ def _along_parts(member: Member) -> tuple[float, float, float] | None:
 
 
 def shards_with_gaps(fractured: FracturedMembers, members: Sequence[Member], gap_m: float) -> tuple[TriangleMesh, ...]:
-    """Return the shards with gaps between those of one member."""
+    """Return the shards with gaps between shards of one member."""
     bounds = np.searchsorted(fractured.member_of_shard, np.arange(len(members) + 1))
     return tuple(
         shard
@@ -225,7 +225,7 @@ def _density(settings: FractureSettings) -> PointDensity | None:
 
 
 def _in_convex_parts(member: Member, shards: int) -> Member:
-    """Return a member that is to be so many shards with parts that are convex, as few of a user's own files are."""
+    """Return a member to be cut into a number of shards, with convex parts: few of a user's own files are convex."""
     if member.parts:
         return member
     least_m3 = _LEAST_PART * member.volume_m3 / shards
@@ -412,7 +412,7 @@ def _pieces_m(
 ) -> list[float]:
     """Return where girders between two ends are cut into pieces: into short ones above supports, if there are enough.
 
-    What lies on a support does not twist there. Were it longer, the slab beside it would not either, and would carry
+    What lies on a support does not twist there. Were it longer, the slab next to it would not either, and would carry
     far too much from one girder to the next.
     """
     edges = [begin]
@@ -445,7 +445,7 @@ def _at_bends(bends_m: np.ndarray, begin: float, end: float, pieces: int) -> lis
 
 
 def _clear_of_cuts(stations_m: Sequence[float], member: Member, cuts: Sequence[CutOfMembers]) -> list[float]:
-    """Return the stations that leave no thin slice beside a plane or the side of a box, along which a member ends."""
+    """Return the stations that leave no thin slice along a plane or the side of a box, along which a member ends."""
     if not len(stations_m) or not cuts:
         return list(stations_m)
     along = [member.without_skew(part.vertices)[:, 0] for part in _in_pieces(member, cuts).parts]
@@ -510,7 +510,7 @@ def _fractured_in_parts(member: Member, count: int, seed: int, options: Fracture
 def _fractured_part(
     part: TriangleMesh, count: int, seed: int, direction: tuple[float, float] | None, options: FractureOptions
 ) -> Fracture:
-    """Cut a convex part; at other points where those of its seed meet what is left of a warped face."""
+    """Cut a convex part; at other points where its seed's points meet what is left of a warped face."""
     for attempt in range(_MOST_ATTEMPTS - 1):
         try:
             return _fractured_once(part, count, seed + attempt, direction, options)
@@ -578,7 +578,7 @@ def _explicit_counts(rules: Sequence[MemberFracture | None], own_points: Sequenc
 def _shared_counts(
     counts: np.ndarray, settings: FractureSettings, rules: Sequence[MemberFracture | None], amounts: np.ndarray
 ) -> np.ndarray:
-    """Return the counts (k,), with those of members (k,) that together get a share of all shards."""
+    """Return the counts (k,), with the counts of members (k,) that together get a share of the shards."""
     counts = counts.copy()
     for rule in settings.members:
         alike = np.array([other is rule for other in rules]) & (counts == 0)

@@ -102,7 +102,7 @@ class Model:
     layers : tuple of BarLayer
         All layers of bars that the members have, by hand and by rule.
     bar_rows : BarRows or None
-        Each layer across each face, of which `bars` are the sum; None without layers.
+        Each layer across each face; `bars` are their sums; None without layers.
     has_lattices : bool
         Whether slabs on rows of columns are cut around lattices.
     """
@@ -155,7 +155,7 @@ class Model:
 
     @property
     def density_kg_m3(self) -> float:
-        """Return the mean density of all members."""
+        """Return the mean density of the members."""
         return mean_density(self.members)
 
 
@@ -165,7 +165,7 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
 
 
 def model_on(basis: ModelBasis, members: Sequence[Member] | None = None) -> Model:
-    """Return the model of all scenarios that have a basis; of members as in `build_model`."""
+    """Return the model of every scenario that has a basis; of members as in `build_model`."""
     scenario = basis.scenario
     members = prepared_members(scenario).members if members is None else tuple(members)
     solids = [(member.name, member.solid) for member in members]
@@ -244,7 +244,7 @@ def _cut_bridge(
 
 
 def _stiffness(rows: ConnectionRows, cut: CutBridge, sources: Sequence[ConnectionSource]) -> SectionStiffness:
-    """Return the stiffness of all connections: as their source knows it, or else by faces of shards."""
+    """Return the stiffness of connections: as their source knows it, or else by faces of shards."""
     matrices = np.full((len(rows), 6, 6), np.nan)
     for source in sources:
         source.stiffen(rows, matrices)
@@ -259,7 +259,7 @@ def _stiffness(rows: ConnectionRows, cut: CutBridge, sources: Sequence[Connectio
 
 
 def _points_to_bearings(rows: ConnectionRows, cut: CutBridge) -> np.ndarray:
-    """Return the points (n, 3) of shards, those of columns that bearings stand on as high as these.
+    """Return the points (n, 3) of shards, raised to the bearings on columns that carry some.
 
     A shard ends in its bearing, and what of it is above its point shortens as well.
     """
@@ -349,6 +349,6 @@ class ModelBasis:
 
     @property
     def digest(self) -> str:
-        """SHA-256, in hexadecimal digits, of all fields, down to the sign of a zero, and of all files that are read."""
+        """SHA-256, in hexadecimal digits, of every field, down to the sign of a zero, and of files that are read."""
         text = "\n".join((repr(self), *file_digests(self.scenario)))
         return hashlib.sha256(text.encode()).hexdigest()

@@ -33,7 +33,7 @@ class ModelBearings:
         return self.springs.rows[self.springs.bearings == bearing]
 
     def forces(self, loads: ConnectionLoads) -> list[BearingForce]:
-        """Return the force of each bearing, by the loads of all connections on their first bodies."""
+        """Return the force of each bearing, by the connections' loads on their first bodies."""
         return [self._force(number, loads) for number in range(len(self.names))]
 
     def utilisations(self, loads: ConnectionLoads, intact: np.ndarray, left: np.ndarray) -> np.ndarray:

@@ -1,8 +1,8 @@
 """How much of the resistance of members with bars is used: in bending and by axial force, section by section.
 
 The force and the moment in a section are those that connections carry between the shards on its two sides. Resistance
-is that of the rectangle with its layers of bars (EN 1992-1-1:2004, 6.1), without factors of safety. Girders cast
-with their slab are T-beams with it, as far as links hold both together. Shear and torsion are left out.
+of the rectangle with its layers of bars (EN 1992-1-1:2004, 6.1), without factors of safety. Girders cast with their
+slab are T-beams with it, as far as links hold both together. Shear and torsion are left out.
 """
 
 from __future__ import annotations
@@ -74,7 +74,7 @@ class SectionsWithBars:
         return judged
 
     def most_used(self, loads: ConnectionLoads, used: np.ndarray) -> SectionUse | None:
-        """Return the section of which most is used, by the loads of all connections; None without bars.
+        """Return the most used section, by the connections' loads; None without bars.
 
         Faces use parts (m,) of the strength of their concrete, nan where they have cracked or are gone. A section that
         has not cracked uses no more of its resistance than they do, and one that has, and stands, no more than all.
@@ -115,7 +115,7 @@ class SectionsWithBars:
         """Yield the section of a T-beam that is used most.
 
         The girder's faces say its moment about the middle of the slab, which is pressed or pulled as much as the girder
-        is pulled or pressed; moments in the slab and axial forces of all together are shared out evenly.
+        is pulled or pressed; moments in the slab and the total axial force are shared out evenly.
         """
         cut = partial(self._across, beam, beam.deck.between_m, loads=loads, used=used)
         planes, points, runs, own = cut(beam.girder.member)
@@ -194,7 +194,7 @@ class SectionsWithBars:
         return planes, points, runs, self._cuts(rows, placed[:, 0], planes, points, loads, used)
 
     def _planes(self, member: int, along_m: np.ndarray, between_m: tuple[float, float]) -> np.ndarray:
-        """Return the planes (k,) between the middles of a member's shards, of all shards (n,) along an axis."""
+        """Return the planes (k,) between the middles of a member's shards, from positions (n,) along an axis."""
         own = np.sort(along_m[self._model.member_of_shard == member])
         steps = np.flatnonzero(np.diff(own) > _SAME_M)
         planes = 0.5 * (own[steps] + own[steps + 1])
@@ -227,7 +227,7 @@ class SectionsWithBars:
 
 
 def _most(member: int, points: np.ndarray, of_bars: np.ndarray, limits: np.ndarray) -> SectionUse:
-    """Return the section of which most is used, of those at points (k, 3)."""
+    """Return the most used section at points (k, 3)."""
     worst = np.minimum(of_bars, np.where(np.isnan(limits), 1.0, limits))
     most = int(np.lexsort((of_bars, worst))[-1])
     return SectionUse(member, points[most], float(worst[most]))

@@ -18,7 +18,7 @@ def settlements(results: Results, foundations: Sequence[Foundation]) -> list[dic
     """Return how the footings of each member on soil have moved, ready for JSON.
 
     ``settled_m`` is the mean downwards over its shards that stand on the ground, ``most_settled_m`` the largest in any
-    frame, ``slid_m`` along the ground, and ``tilt_rad`` that of the shard that leans most at the end.
+    frame, ``slid_m`` along the ground, and ``tilt_rad`` the tilt of the shard that leans most at the end.
     """
     inventory, seen = results.inventory, relative_to_ground(results)
     ground = set(inventory.of_kind("ground").tolist())

@@ -2,9 +2,9 @@
 
 What such a slab lays on each column depends on how it bends from one to the next, also because bending along the road
 curves it across that, by Poisson's effect. Shards around points of chance bend there anyhow: single columns had 0.5 to
-1.7 times their share in 100 shards, and in 400 still four fifths. Around a lattice of points, each row half a step
-beside the last, shards are hexagons, and springs of `member_shapes` are those of an evenly bent plate, without what
-chance takes off. Columns below are cut across.
+1.7 times their share in 100 shards, and in 400 still four fifths. Around a lattice of points, each row half a step off
+the last, shards are hexagons, and springs of `member_shapes` follow an evenly bent plate, without what chance takes
+off. Columns below are cut across.
 """
 
 from __future__ import annotations
@@ -56,7 +56,7 @@ class SlabOnColumns:
     axes_m : (a,) float
         Where it is supported along the road.
     columns_m : (c,) float
-        Where columns are across the road, of which two or more are under one axis.
+        Where columns are across the road, two or more under one axis.
     corners_m : (2, 3) float
         Its lowest and its highest corner.
     """
@@ -70,7 +70,7 @@ class SlabOnColumns:
     def points_m(self, shards: int, draw: np.random.Generator) -> FloatArray:
         """Return points (p, 3) of a lattice: as many as shards, or fewer, but from one column to the next two at least.
 
-        None where so many shards are much thinner than the slab, or it would take many more.
+        None where this number makes shards much thinner than the slab, or it would take many more.
         """
         parts = _LEAST_PARTS
         while len(self._lattice_m(parts + 1, _ROWS[0])) <= shards:
@@ -96,7 +96,7 @@ class SlabOnColumns:
         return float(self.columns_m[-1] - self.columns_m[0]) / (len(self.columns_m) - 1)
 
     def _lattice_m(self, parts: int, ratio: float) -> list[tuple[float, float]]:
-        """Points with so many steps from one column to the next, in rows across the road by that ratio apart."""
+        """Points with a number of steps from one column to the next, in rows across the road by that ratio apart."""
         (begin, right), (end, left) = self.corners_m[:, :2].tolist()
         axes, step_m = self.axes_m.tolist(), self._spacing_m / parts
         # Axes are in even rows, whose points are above columns.
@@ -110,7 +110,7 @@ class SlabOnColumns:
         return [(row_m, y) for row_m, row in rows for y in self._across_m(step_m, 0.5 * (row % 2), (right, left))]
 
     def _across_m(self, step_m: float, shift: float, edges_m: tuple[float, float]) -> list[float]:
-        """Where points of a row are across the road, that part of a step beside columns."""
+        """Where points of a row are across the road, that part of a step off columns."""
         first_m = float(self.columns_m[0]) + shift * step_m
         least, most = (edges_m[0] - first_m) / step_m + _CLEAR, (edges_m[1] - first_m) / step_m - _CLEAR
         return [first_m + step_m * number for number in range(math.ceil(least), math.floor(most) + 1)]

@@ -49,10 +49,10 @@ class StarterBars:
 def starter_bars(cut: CutBridge, layers: Sequence[BarLayer], rows: ConnectionRows) -> StarterBars | None:
     """Return the bars between members of one piece; None where there are none.
 
-    Either member's bars that run across the face go on into the other: as many as those of the one with more, and the
-    least that EN 1992-1-1 asks for where either has bars. Layers yield as across a crack of their own member, whose
-    section they turn about its pressed edge with its moment of resistance. Bearings and soil have none, nor have
-    connections that leave something free.
+    Either member's bars that run across the face go on into the other: as many as the one with more has, and the least
+    that EN 1992-1-1 asks for where either has bars. Layers yield as across a crack of their own member, whose section
+    they turn about its pressed edge with its moment of resistance. Bearings and soil have none, nor have connections
+    that leave something free.
     """
     scenario, members, connections, joints = cut.scenario, cut.members, rows.connections, cut.scenario.joints
     yield_n, openings = np.zeros((2, len(connections)))
@@ -119,7 +119,7 @@ def _kinds_of_one_piece(bridge: Bridge) -> Iterator[tuple[frozenset[str] | None,
 
 
 class _BarsOfMembers:
-    """The bars of members by the area across them, those of layers as they pull across a crack of their section."""
+    """The bars of members by the area across them, layers as they pull across a crack of their section."""
 
     def __init__(self, layers: Sequence[BarLayer], members: Sequence[Member]):
         self._layers, self._members = layers, members

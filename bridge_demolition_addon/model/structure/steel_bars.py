@@ -157,7 +157,7 @@ def steel_facts(scenario: Scenario, model: Model, rest: Equilibrium) -> Iterator
 
 
 def sum_of_masses(model: Model) -> float:
-    """Return the mass of all bars and nodes."""
+    """Return the total mass of bars and nodes."""
     is_steel = np.array([member.steel is not None for member in model.members])[model.member_of_shard]
     return float(model.masses_kg[is_steel].sum())
 

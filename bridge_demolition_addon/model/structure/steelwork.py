@@ -69,7 +69,7 @@ def steel_fracture(member: Member) -> Fracture:
 
 
 def bar_joints(members: Sequence[Member], member_of_shard: np.ndarray) -> BarJoints:
-    """Return all joints of bars between the shards of members, of each of which the index is given (n,)."""
+    """Return all joints of bars between shards, given the member's index of each shard (n,)."""
     first_shards = np.searchsorted(member_of_shard, np.arange(len(members)))
     node_shards = {
         member.name: int(first_shards[index])
@@ -129,7 +129,7 @@ class SteelEnds(ConnectionSource):
     """Joints of bars, which are among the faces that shards share, and supports of nodes."""
 
     def takes(self, pairs: np.ndarray) -> np.ndarray:
-        """Return those of steel and the ground, of a node on a support, or a bar that ends there, and what holds it.
+        """Return contacts of steel and ground, and of a node on a support, or a bar that ends there, and what holds it.
 
         Where these touch, the support is all that is between them.
         """
@@ -194,7 +194,7 @@ class SteelEnds(ConnectionSource):
         return replace(rows, bars=rows.bars_or_none.with_hinges(steel.rows[: len(yields)], *laws))
 
     def stiffen(self, rows: ConnectionRows, matrices: np.ndarray) -> None:
-        """Set the stiffness of joints by the sections of their bars, and that of supports."""
+        """Set the stiffness of joints by the sections of their bars, and of supports."""
         if steel := rows.part(SteelConnections):
             matrices[steel.rows] = _steel_stiffness(steel, rows.connections, self.cut.members)
 
@@ -307,7 +307,7 @@ def _steel_stiffness(steel: SteelConnections, connections: Connections, members:
 
 
 def _turns(steel: SteelConnections, connections: Connections, members: Sequence[Member]) -> np.ndarray:
-    """Axes of connections (j, 3, 3) that are joints of bars, in those of the bars, as columns."""
+    """Axes of connections (j, 3, 3) that are joints of bars, in the bars' axes, as columns."""
     count = len(steel.joints.members)
     axes = section_axes(connections.normals[steel.rows[:count]])
     own = np.array([_bar(members[index]).axes for index in steel.joints.members.tolist()])
@@ -315,7 +315,7 @@ def _turns(steel: SteelConnections, connections: Connections, members: Sequence[
 
 
 def _support(node: str, members: Sequence[Member]) -> np.ndarray:
-    """Stiffness (6, 6) of a support, much more than that of the bars at its node."""
+    """Stiffness (6, 6) of a support, much more than the bars at its node have."""
     bars = [_bar(member) for member in members if member.steel and node in member.steel.nodes]
     young = STEEL_MODULI.young_pa
     shifts = _SUPPORT * max(young * bar.section.area_m2 / bar.length_m for bar in bars)
@@ -326,7 +326,7 @@ def _support(node: str, members: Sequence[Member]) -> np.ndarray:
 
 
 def _holding_shard(name: str, position_m: np.ndarray, cut: CutMembers) -> int:
-    """Return the shard of a member, or of all of a kind, that is nearest to a position; or the ground."""
+    """Return the shard of a member or kind that is nearest to a position; or the ground."""
     if name == GROUND_NAME:
         return GROUND
     chosen = members_named(name, cut.members, "steelwork.nodes.held_by")

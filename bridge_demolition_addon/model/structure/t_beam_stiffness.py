@@ -2,11 +2,11 @@
 
 Where girder and slab are cut across together, each piece of a T-beam is one shard of both, which hardly move against
 each other. Its cuts are then elements of a beam (`elasticity.beam_elements`): both faces have their own area and second
-moment, and together those of the T; shear of the T is shared as web and slab are deep; the web twists as below a
-flange, the slab half as a bar does, as in a grillage (E. C. Hambly 1991, Bridge Deck Behaviour, 3.3). As a shard of a
-web that followed the slab sideways would close its cut against twist, it may turn about the vertical below the slab.
-Faces of the slab between two girders are elements across, which bend between the webs: nodes are stiff for half of the
-web less a quarter of the slab's thickness. What is cut finer than so, or otherwise, is as stiff as faces are.
+moment, and together the T's; shear of the T is shared as web and slab are deep; the web twists as below a flange, the
+slab half as a bar does, as in a grillage (E. C. Hambly 1991, Bridge Deck Behaviour, 3.3). As a shard of a web that
+followed the slab sideways would close its cut against twist, it may turn about the vertical below the slab. Faces of
+the slab between two girders are elements across, which bend between the webs: nodes are stiff for half of the web less
+a quarter of the slab's thickness. What is cut finer than so, or otherwise, is as stiff as faces are.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ _TURNS_BELOW_SLAB = 0.05
 
 
 def fit_to_t_beams(matrices: FloatArray, rows: ConnectionRows, cut: CutBridge) -> None:
-    """Replace the stiffness (m, 6, 6) of faces, in the axes of their sections, by that of T-beams and the slab."""
+    """Replace the stiffness (m, 6, 6) of faces, in the axes of their sections, by the T-beams' and the slab's."""
     if cut.scenario.bridge is None or cut.scenario.bridge.girders is None:
         return
     axes, joints = section_axes(rows.connections.normals), cut.scenario.joints
@@ -77,7 +77,7 @@ class _CastTBeams:
         return np.asarray((one >= 0) & (other >= 0) & (abs(one - other) <= 1))
 
     def stiffness(self, row: int, faces: FloatArray, moduli: ElasticModuli) -> FloatArray | None:
-        """Return the stiffness of a connection in the axes of the world, by that of faces; None where faces decide."""
+        """Return the stiffness of a connection in the axes of the world, by the faces'; None where faces decide."""
         one, other = self.rows.connections.pairs[row].tolist()
         if self.line[one] != self.line[other]:
             return None if self.is_web[[one, other]].any() else self._across(row, faces, moduli)

@@ -27,7 +27,7 @@ EN 1992-1-1:2004, figure 5.2."""
 class TBeam:
     """A girder with its bars along the road, and a part of the slab above with those in it.
 
-    Bars of the slab are those of the whole `deck`; one of `number` girders has them in its flange, which is at most
+    Bars of the slab belong to the whole `deck`; one of `number` girders has them in its flange, which is at most
     `beside_m` wider than the web on either side. `supports_m` are where the deck rests, along the road.
     """
 
@@ -60,7 +60,7 @@ class TBeam:
         return flange_width_m(self.girder.width_m, self.beside_m, _between_zeros_m(at_m, self.supports_m))
 
     def section(self, at_m: float, compressive_pa: float, factor: float = 1.0) -> ReinforcedSection:
-        """Return the section, with depths from its top, first the girder's layers, and bars so many times as strong."""
+        """Return the section, with depths from its top, first the girder's layers, and bars stronger by a factor."""
         flange_m, parts = self.flange_m(at_m), (self.girder, self.deck)
         shares = 1.0, flange_m / self.deck.width_m
         return ReinforcedSection(
@@ -74,7 +74,7 @@ class TBeam:
         )
 
     def has(self, group: LayersOfMember) -> bool:
-        """Return whether layers are those of its girder or its deck."""
+        """Return whether layers belong to its girder or its deck."""
         return any(_key(group) == _key(part) for part in (self.girder, self.deck))
 
     def across_cracks_n(self, group: LayersOfMember, compressive_pa: float, factor: float) -> list[float]:

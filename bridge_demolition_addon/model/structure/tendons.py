@@ -219,7 +219,7 @@ def _passages(placed: Sequence[_Placed], connections: Connections) -> TendonPass
 def _with_bars(
     tendons: ModelTendons, pulls_n: np.ndarray, bars: FaceBars, connections: Connections
 ) -> tuple[ModelTendons, FaceBars]:
-    """Return tendons that know which part they are of all bars, and these bars: they yield at `pulls_n` (k,)."""
+    """Return tendons that know their places among the bars, and these bars: they yield at `pulls_n` (k,)."""
     passed, steel = tendons.passages, tendons.steel
     rows = np.flatnonzero((passed.connections >= 0) & steel.bonded[passed.tendons])
     at = passed.connections[rows]

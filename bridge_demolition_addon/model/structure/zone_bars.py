@@ -33,7 +33,7 @@ _WHOLE = 0.01
 class ZoneBars:
     """Bars of one diameter, with the same forces at yield and at buckling as all that stay.
 
-    `distances_m` are those of the bars from the middle of the section, root mean squares, along its two axes in order.
+    `distances_m` of the bars are from the middle of the section, root mean squares, along its two axes in order.
     """
 
     count: float
@@ -44,13 +44,13 @@ class ZoneBars:
 
     @property
     def sizes(self) -> str:
-        """How many of which size."""
+        """Numbers by size."""
         count = f"{self.count:.0f}" if abs(self.count - round(self.count)) < _WHOLE else f"{self.count:.1f}"
         return f"{count} bars of {self.diameter_m / M_PER_MM:.3g} mm"
 
     @property
     def text(self) -> str:
-        """The same, and whether they are those of the member."""
+        """The same, and whether they are the member's."""
         return f"{self.sizes}, as the member has," if self.of_member else self.sizes
 
     def resisted_n(self, bared_m: float) -> tuple[float, float]:
@@ -93,7 +93,7 @@ def _of_zone(zone: BlastZone, box_m: np.ndarray) -> ZoneBars | None:
 
 
 def _of_member(zone: BlastZone, member: Member, box_m: np.ndarray, layers: Sequence[BarLayer]) -> ZoneBars | None:
-    """Bars of all layers that run along the whole zone."""
+    """Bars of the layers that run along the whole zone."""
     own = list(_layers_along(zone, member, layers))
     if not own:
         return None

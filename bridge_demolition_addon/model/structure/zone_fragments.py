@@ -50,7 +50,7 @@ class FlyrockOfZone:
 
 
 def zone_fragments(placed: PlacedZone, seed: int = 0) -> Fragments:
-    """Return fragments of a zone as they leave the free faces beside its rows, the same for the same seed."""
+    """Return fragments of a zone as they leave the free faces along its rows, the same for the same seed."""
     zone, generator = placed.zone, np.random.default_rng([seed, zlib.crc32(given(placed.zone.name).encode())])
     count = FRAGMENTS_A_ZONE
     mean_m = mean_size_m(placed.specific_kg_m3, zone.charge_kg, zone.made_of.relative_strength)
@@ -76,7 +76,7 @@ def flyrock_of(placed: PlacedZone, heights_at: HeightsAt | None = None, seed: in
 def flyrock_of_zones(
     zones: Sequence[PlacedZone], heights_at: HeightsAt | None = None, seed: int = 0
 ) -> tuple[FlyrockOfZone, ...]:
-    """Return that of zones with explosive in them; all fragments that count fly at once, which is quicker."""
+    """Return the flyrock of zones with explosive in them; all fragments that count fly at once, which is quicker."""
     if not zones:
         return ()
     thrown = [zone_fragments(placed, seed) for placed in zones]

@@ -35,7 +35,7 @@ _MEGA = 1e6
 
 
 def zone_loads(zones: Sequence[BlastZone], model: Model, loads: ConnectionLoads) -> tuple[ZoneLoad, ...]:
-    """Return what zones carry, by the loads of all connections of a model at rest."""
+    """Return what zones carry, by the connections' loads in a model at rest."""
     return tuple(_load_of(zone, model, loads) for zone in zones)
 
 
@@ -79,7 +79,7 @@ class ZoneFall:
     above_m, below_m : float
         Lengths of its member above it and below it, each up to the next zone that is thrown out.
     all_m : float
-        Heights of all zones of the member that are thrown out.
+        Heights of the member's zones that are thrown out.
     zones : int
         How many these are.
     shaft : LandingShaft or None
@@ -119,7 +119,7 @@ class ZoneFall:
 
     @property
     def lets_fold(self) -> bool:
-        """Whether its piece does not stand: that of an only zone may be guided by the stub, those between zones tip."""
+        """Whether its piece does not stand: over an only zone the stub may guide it, between zones it tips."""
         if self.shaft is None:
             return self.zones > 1 and self.above_m > _LEAST_M
         return self.is_crushed or self.shaft.buckles or (self.zones > 1 and self.tips)
