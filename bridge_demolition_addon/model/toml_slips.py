@@ -49,7 +49,7 @@ def _straight(match: re.Match[str]) -> str:
 
 
 def _as_seen(match: re.Match[str]) -> str:
-    """Return a line with usual spaces and digits in place of those of other scripts, and without what is not seen."""
+    """Return a line with usual spaces and digits in place of other scripts' signs, and without what is not seen."""
     usual = unicodedata.normalize("NFKC", match.string)
     return "".join(letter for letter in usual if unicodedata.category(letter) != "Cf")
 

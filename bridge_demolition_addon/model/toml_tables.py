@@ -1,6 +1,6 @@
 """Tables in TOML: read strictly into their classes, and written back without loss.
 
-The file of a class holds its own keys under its heading, and the tables in it beside that.
+The file of a class holds its own keys under its heading, and the tables in it next to that.
 """
 
 import json
@@ -124,7 +124,7 @@ def toml_document(text: str, faults: Faults | None = None) -> dict[str, Any]:
 
 
 def table_of_document(root: type[_Root], document: dict[str, Any]) -> _Root:
-    """Return the table in a document, where its own keys stand under its heading beside the tables in it."""
+    """Return the table in a document, where its own keys stand under its heading, next to the tables in it."""
     _check_kind(root, document)
     heading = document.get(root.table, {})
     if not isinstance(heading, dict):
@@ -207,7 +207,7 @@ def _tables(root: type[Table], table_class: type[Table], values: Any) -> tuple[T
 def _meant(
     root: type[Table], table: str, values: dict[str, Any], known: Sequence[str], faults: Faults
 ) -> dict[str, Any]:
-    """Return the values of known names, and those of unknown ones under the names that are meant; note the unknown."""
+    """Return the values of known names, and of unknown ones under the names that are meant; note the unknown."""
     values = _renamed(table, values, known, faults)
     meant = {name: value for name, value in values.items() if name in known}
     for name in values:

@@ -111,7 +111,7 @@ class ReportedRun:
 
     @property
     def name(self) -> str:
-        """Name of the run beside others."""
+        """Name of the run among others."""
         return shown_name(self.folder)
 
     @property

@@ -1,6 +1,6 @@
-"""Areas for a site plan: those of a charge plan, and their files: DXF in local metres, GeoJSON in degrees.
+"""Areas for a site plan, from a charge plan, and their files: DXF in local metres, GeoJSON in degrees.
 
-Predicted debris is that of a run or a study. Fragments are known within a factor of 2, and no safety distance.
+Predicted debris comes from a run or a study. Fragments are known within a factor of 2, and no safety distance.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ def write_areas(
 ) -> list[Path]:
     """Write areas for a site plan, and return the files; in degrees only where the site is known.
 
-    A note stands beside the areas in both.
+    Both files hold a note with the areas.
     """
     write_dxf(dxf, areas, contours_m, note)
     if site is None:
@@ -62,8 +62,7 @@ def write_dxf(
     """Write areas as closed polylines, one layer each, in metres and in the scenario's own axes.
 
     Contour lines of the ground (s, 2, 3) have a layer of their own, each at its height, and so has a note, below all
-    areas. The format is that of AutoCAD
-    release 12, which everything reads.
+    areas. Format: AutoCAD release 12, which everything reads.
     """
     lines = ["0", "SECTION", "2", "HEADER", "9", "$ACADVER", "1", "AC1009", "0", "ENDSEC"]
     lines += ["0", "SECTION", "2", "ENTITIES"]

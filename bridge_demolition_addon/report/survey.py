@@ -1,4 +1,4 @@
-"""The report of a survey of the debris beside the forecast of a run."""
+"""The report of a survey of the debris against the forecast of a run."""
 
 from __future__ import annotations
 

@@ -96,7 +96,7 @@ _WITH_PAGES = ("run", "study")
 
 @dataclass(frozen=True, slots=True)
 class Extras:
-    """What is written beside page and PDF, a Word file and single pages by whom they are for; language and units.
+    """What is written with page and PDF, a Word file and single pages by whom they are for; language and units.
 
     Without a language or units of its own, a report is in those that its scenario asks for, else English and metric.
     """
@@ -124,7 +124,7 @@ _USUAL_CELLS = SurveySettings()
 
 
 def kind_of(folder: Path) -> FolderKind:
-    """Return the kind of a folder; that of a run where none recognises it, whose reader says what is missing."""
+    """Return the kind of a folder; a run's where none recognises it; its reader says what is missing."""
     return next((kind for kind in KINDS if kind.recognised(folder)), RUN)
 
 
@@ -180,7 +180,7 @@ def write_survey(
 ) -> tuple[list[tuple[str, str]], list[Path]]:
     """Compare a run with a survey of its debris, write that as a report, and return what it says and all files.
 
-    Where and how the survey lies is that of the ground of the run's scenario, but for what `place` says.
+    The survey lies like the ground of the run's scenario, but for what `place` says.
     """
     progress.stage(f"reading the results, and {survey.name}")
     comparison, run = survey_beside_run(folder, survey, place, settings)
@@ -195,7 +195,7 @@ def write_survey(
 def survey_beside_run(
     folder: Path, survey: Path, place: SurveyPlace = _AS_GROUND, settings: SurveySettings = _USUAL_CELLS
 ) -> tuple[SurveyComparison, ReportedRun]:
-    """Return a survey of debris beside a run, and that run."""
+    """Return the comparison of a survey of debris with a run, and the run."""
     run = read_run(folder)
     if run.results is None or run.scenario is None:
         raise OutputError(f"{folder}: {' '.join(run.shortcomings)}")

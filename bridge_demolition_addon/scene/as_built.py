@@ -63,7 +63,7 @@ def manual_edits(scene: bpy.types.Scene, setup: RunSetup) -> list[str]:
 
 
 def edits_beside_bodies(by_hand: Sequence[str], changed: Sequence[str]) -> list[str]:
-    """Return those of the texts of `manual_edits` that the sentences of `changed_bodies` do not say already.
+    """Return the texts of `manual_edits` that the sentences of `changed_bodies` do not say already.
 
     A body or a connection less changes most of what is compared. A sentence that names it says more than that list.
     """

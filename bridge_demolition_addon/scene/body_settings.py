@@ -38,7 +38,7 @@ class BodySettings:
     rigid : mapping of str to list
         Properties of its rigid body by Blender's names.
     keys : (k,) float
-        Keyframes of all of them except balls that are lifted: a run lifts these from where they lie.
+        Keyframes of the bodies except balls that are lifted: a run lifts these from where they lie.
     """
 
     objects: tuple[bpy.types.Object, ...]

@@ -67,8 +67,8 @@ def make_named(
 ) -> list[_Made]:
     """Make data of a collection, such as all objects of the file, from names and numbers, and return it in their order.
 
-    Names ascend and are new. The last ones are made first, so many that all others belong at the beginning of a block.
-    That is about five times as fast as to make all in order.
+    Names ascend and are new. The last ones are made first, until all others belong at the beginning of a block. That is
+    about five times as fast as to make all in order.
     """
     behind = sum(name.lower() > names[0].lower() for name in collection.keys()) if names else 0  # noqa: SIM118
     first = max(0, len(names) - (-1 - behind) % _BLOCK)

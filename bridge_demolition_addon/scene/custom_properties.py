@@ -38,7 +38,7 @@ def kept_numbers(holder: bpy.types.ID, name: str, default: Sequence[float]) -> t
 
 
 def kept_series(holder: bpy.types.ID, name: str, expected: str) -> np.ndarray:
-    """Return the numbers (k,) of a property, of which none is nan; an error says what was expected there."""
+    """Return the numbers (k,) of a property, none nan; an error says what was expected there."""
     value = holder.get(name)
     try:
         numbers = [] if isinstance(value, str | bytes) else [float(number) for number in value]
@@ -71,13 +71,13 @@ def edited(holder: bpy.types.ID, name: str, expected: str) -> SimulationError:
 
 
 def keep_run_tables(scene: bpy.types.Scene, tables: Sequence[PlannedAction]) -> None:
-    """Keep tables in the scene, and so in its file, in place of those of before; a recording of it applies them."""
+    """Keep tables in the scene, and so in its file, in place of earlier ones; a recording of it applies them."""
     for name in run_tables():
         keep_tables(scene, name, [table for table in tables if table.kept_in == name])
 
 
 def keep_tables(scene: bpy.types.Scene, name: str, tables: Sequence[PlannedAction]) -> None:
-    """Keep the tables of one name in place of those of before."""
+    """Keep the tables of one name in place of earlier ones."""
     keep(scene, _property(name), tables_text(tables) if tables else None)
 
 

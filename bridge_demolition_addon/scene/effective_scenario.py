@@ -60,7 +60,7 @@ def _surfaces_of(
 ) -> dict[BodyInContact, SurfaceValues]:
     """Return friction and restitution that bodies in Blender have by themselves, by their tables.
 
-    Where those of one table differ, it has what the scenario says.
+    Where bodies of one table differ, it has what the scenario says.
     """
     rows_of: dict[BodyInContact, Sequence[int]] = {scenario.shards: rows[Kind.SHARD]}
     named: dict[str, list[int]] = {}

@@ -53,7 +53,7 @@ def remove_demolition(scene: bpy.types.Scene) -> int:
 
 
 def remove_loose_connections(scene: bpy.types.Scene) -> int:
-    """Remove connections that lack a body, such as those of a deleted shard, and return how many there were.
+    """Remove connections that lack a body, such as with a deleted shard, and return how many there were.
 
     The scene goes to its start frame.
     """
@@ -83,8 +83,8 @@ def _remove_in_turn(scene: bpy.types.Scene, *groups: list[bpy.types.Object]) -> 
 def _take_out_of_world(scene: bpy.types.Scene, group: list[bpy.types.Object]) -> None:
     """Have Blender free the bodies among some objects in the world of their scene, where there are other worlds.
 
-    Blender does not know the world of a body that it deletes. It takes the body out of the worlds of all scenes by its
-    index in one of them, so that it takes another body out instead, and crashes later.
+    Blender does not know the world of a body that it deletes. It takes the body out of every scene's world by its index
+    in one of them, so that it takes another body out instead, and crashes later.
     """
     others = [other.rigidbody_world for other in bpy.data.scenes if other.rigidbody_world and other != scene]
     shared = {body for world in others if world.collection for body in world.collection.all_objects}

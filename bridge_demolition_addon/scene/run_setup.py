@@ -165,7 +165,7 @@ def _time_parts(setup: RunSetup) -> Parts:
 
 
 def _blast_parts(setup: RunSetup) -> Parts:
-    """Return the impulses of all charges together on all bodies as they were built."""
+    """Return the impulses of the charges together on the bodies as they were built."""
     if not setup.goes_off:
         return {"blast_impulses_ns": np.zeros(0)}
     positions_m, rotations = setup.bodies.positions_m, setup.bodies.rotations
@@ -175,7 +175,7 @@ def _blast_parts(setup: RunSetup) -> Parts:
 
 
 def _unlike(bodies: BodySettings, name: str) -> list[Any]:
-    """Return a property of all shards where they differ: a scenario has one value for all of them."""
+    """Return a property of every shard where they differ: a scenario has one value for all."""
     values = [bodies.rigid[name][row] for row in bodies.of_kind(Kind.SHARD)]
     return values if len(set(values)) > 1 else []
 
@@ -187,7 +187,7 @@ def _shape_parts(setup: RunSetup) -> Parts:
 
 
 def _mass_parts(setup: RunSetup) -> Parts:
-    """Return all masses but that of the ball, which has a key."""
+    """Return all masses but the ball's, which has a key."""
     bodies = setup.bodies
     return {"kg": [kg for kg, kind in zip(bodies.rigid["mass"], bodies.kinds, strict=True) if kind != Kind.BALL]}
 
@@ -320,14 +320,14 @@ class RunSetup:
 
     @property
     def digest(self) -> str:
-        """Digest of all that decides what will happen."""
+        """Digest of everything that decides what will happen."""
         parts: dict[str, Any] = {}
         for hashed in self._metadata("hashed"):
             parts |= hashed(self)
         return digest(parts)
 
     def compared(self) -> dict[str, str]:
-        """Return the digests of all parts that are compared with the scene as it was built, by their texts."""
+        """Return the digests of the parts that are compared with the scene as it was built, by their texts."""
         return {
             text: digest(parts(self)) for compared in self._metadata("compared") for text, parts in compared.items()
         }
@@ -359,7 +359,7 @@ class RunSetup:
         return np.flatnonzero(self.inventory.masses_kg > 0.0)
 
     def explosion(self) -> Explosion:
-        """Return the explosion of all charges on the bodies that it can push, before anything goes off."""
+        """Return the explosion of the charges on the bodies that it can push, before anything goes off."""
         return Explosion(self.charges, self._hulls, self.blast)
 
     @cached_property

@@ -90,7 +90,7 @@ def _copied(value: Any) -> Any:
 
 
 def remove_world(scene: bpy.types.Scene) -> None:
-    """Remove the scene's rigid-body world, if it has one, with those of its collections that are empty."""
+    """Remove the scene's rigid-body world, if it has one, with its empty collections."""
     world = scene.rigidbody_world
     if world is None:
         return

@@ -88,13 +88,13 @@ def running_recording() -> Recording | None:
 
 
 def _let_go() -> None:
-    """Release the worlds of all scenes before Blender frees them, or while events still show that it does."""
+    """Release every scene's world before Blender frees them, or while events still show that it does."""
     for owner in list(_scenes.values()):
         owner.before_undo_or_load()
 
 
 def _look_at_all() -> None:
-    """Take over the worlds of all scenes; while Blender switches the add-on on, it names only those that are shown."""
+    """Take over every scene's world; while Blender switches the add-on on, it names only those that are shown."""
     shown = [window.scene for window in bpy.context.window_manager.windows]
     for scene in getattr(bpy.data, "scenes", shown):
         recorded_scene(scene).look()

@@ -51,7 +51,7 @@ def keep_recording(folder: Path, recording: Recording, summary: Mapping[str, Any
 
 
 def keep_results(folder: Path, results: Results, summary: Mapping[str, Any]) -> None:
-    """Write arrays, summary and force chart of a recording beside its logs."""
+    """Write arrays, summary and force chart of a recording to the folder of its logs."""
     results.save(folder / RESULTS_FILE)
     write_summary(folder, summary)
     # Loading matplotlib takes a second, for which neither other commands nor switching the add-on on should wait. If it

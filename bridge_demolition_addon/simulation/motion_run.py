@@ -28,7 +28,7 @@ def motion_run(
 ) -> Iterator[tuple[Results, dict[str, Any]]]:
     """Simulate a scenario in an otherwise empty Blender file, and return results and summary, which last for the block.
 
-    Motion and breaking have the same bits as those of `run_scenario`; loads and work are unknown. Frames are kept in an
+    Motion and breaking have the same bits as in `run_scenario`; loads and work are unknown. Frames are kept in an
     existing folder during the block. `after_frame` looks on after each frame; what it raises ends the run.
     """
     with interrupted_afterwards():

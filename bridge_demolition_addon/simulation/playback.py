@@ -61,7 +61,7 @@ class Playing:
     total, done
         Frames to play, without the start frame, and frames played.
     seconds, longest_frame_s
-        Wall time of all of them with the start frame, and of the one that took longest after it.
+        Wall time of the frames with the start frame, and of the longest after it.
     left_s
         Wall time that the remaining frames take, with the time between frames; None before the third frame.
     """

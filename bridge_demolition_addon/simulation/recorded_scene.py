@@ -1,4 +1,4 @@
-"""The one owner of all that is done in a scene while Blender runs."""
+"""The one owner of everything done in a scene while Blender runs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Runs on an existing Dask cluster, in processes beside its workers, which survive their crashes.
+"""Runs on an existing Dask cluster, in processes outside its workers, which survive their crashes.
 
 Files come back through Dask: no shared file system is needed.
 """
@@ -36,7 +36,7 @@ _GONE = "the scheduler has gone; once it is back, the same command goes on"
 class DaskCluster:
     """Makes runs on the workers of a scheduler, such as ``tcp://host:8786``, one in each of their threads.
 
-    The program of runs is by default that of the workers' own Python, and its versions are those of the first worker.
+    The program of runs is by default the workers' own Python, and its versions are the first worker's.
     """
 
     def __init__(
@@ -147,7 +147,7 @@ def _versions_here() -> dict[str, str]:
 def _play_here(
     request: Mapping[str, Any], command: Sequence[str] | None, versions: Mapping[str, str], limits: RunLimits
 ) -> tuple[RunOutcome, dict[str, bytes]]:
-    """Make a run in a process beside the worker; return its outcome, and its files by their paths in its folder."""
+    """Make a run in a process outside the worker; return its outcome, and its files by their paths in its folder."""
     with (
         _WARM.process(command or run_program_command(one_thread=limits.one_thread), versions, limits) as process,
         tempfile.TemporaryDirectory(prefix="bda-run-") as folder,

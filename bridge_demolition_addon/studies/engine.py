@@ -1,4 +1,4 @@
-"""Engines that make runs: the interface, and processes on this machine, each of which makes one run after another."""
+"""Engines that make runs: the interface, and processes on this machine, each making one run after another."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ def ended_items(items: queue.SimpleQueue[_Item], timeout_s: float) -> list[_Item
 
 
 class LocalProcesses:
-    """Makes runs in several processes at a time; their program and its versions are by default those of this Python."""
+    """Makes runs in several processes at a time; their program and its versions are by default this Python's."""
 
     def __init__(
         self,

@@ -49,7 +49,7 @@ def seconds_by_size(scenario: Scenario, model: Model) -> float:
 
 
 def seconds_of_stages(scenario: Scenario, model: Model, stages: int) -> tuple[float, float]:
-    """Return about how long so many stages take on one core, without and with load factors, to a factor of `FACTOR`."""
+    """Return about how long stages take on one core, without and with load factors, to a factor of `FACTOR`."""
     parts = len(model.shards) + len(model.connections)
     at_rest_s = _PER_RUN_S + _PER_PART_AT_REST_S * parts * stages
     searches = stages + sum(1 for _ in load_cases(scenario, model))

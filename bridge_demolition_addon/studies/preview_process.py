@@ -1,4 +1,4 @@
-"""A process that makes previews of scenarios, beside Blender, and is kept for the next one."""
+"""A process that makes previews of scenarios outside Blender, and is kept for the next one."""
 
 from __future__ import annotations
 

@@ -110,7 +110,7 @@ def _remove(folders: Iterable[Path]) -> None:
 
 
 def warm_up(is_asked: Callable[[], bool], folder: Path) -> bool:
-    """Make a short run with elastic connections, whose frames are kept in a folder meanwhile, as those of a request.
+    """Make a short run with elastic connections, whose frames are kept in a folder meanwhile, as for a request.
 
     Return whether it came to its end: once something is asked it ends at its next frame.
     """

@@ -50,7 +50,7 @@ def play(models: KeptModels, request: Mapping[str, Any], folder: Path) -> dict[s
     """Make the run of a request, leave its files in a folder, and return its outputs and its fingerprint.
 
     One that was stopped while it was evaluated is only evaluated. Runs of one bridge that is cut alike share its model,
-    as those of all candidates of an optimisation do.
+    as the candidates of an optimisation do.
     """
     scenario = scenario_from_text(request["scenario"])
     settings = table_of_document(EnsembleSettings, toml_document(request["study"]))

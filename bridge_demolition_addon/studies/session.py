@@ -86,11 +86,11 @@ class EnsembleSession:
             self.folder.release()
 
     def result(self) -> EnsembleResult:
-        """Return the result of all runs."""
+        """Return the result of the runs."""
         return result_of_runs(self.planner.ensemble, self.planner.table)
 
     def finish(self) -> tuple[EnsembleResult, list[Path]]:
-        """Write the result of all runs, with pictures; end the session, and return result and files."""
+        """Write the result of the runs, with pictures; end the session, and return result and files."""
         result = self.result()
         paths = self.folder.write_result(result) + save_pictures(result, self.folder.path)
         return result, self.stop() + paths

@@ -1,4 +1,4 @@
-"""The versions that calculate a run: what its result depends on beside its inputs."""
+"""The versions that calculate a run: what its result depends on apart from its inputs."""
 
 from __future__ import annotations
 
@@ -19,5 +19,5 @@ def installed_blender() -> str:
 
 
 def versions_with(blender: str) -> dict[str, str]:
-    """Return all versions, with that of a Blender; those of this package and its libraries are the ones here."""
+    """Return all versions, a Blender's included; versions of this package and its libraries are the ones here."""
     return {"blender": blender, "bridge_demolition_addon": own_code(), **{name: version(name) for name in _LIBRARIES}}

@@ -1,4 +1,4 @@
-"""A whole run in a process of its own, beside Blender's window."""
+"""A whole run in a process of its own, outside Blender's window."""
 
 from __future__ import annotations
 

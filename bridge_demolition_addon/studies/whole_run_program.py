@@ -1,4 +1,4 @@
-"""The program that makes a whole run beside Blender: ``python -m bridge_demolition_addon.studies.whole_run_program``.
+"""The program that makes a whole run outside Blender: ``python -m bridge_demolition_addon.studies.whole_run_program``.
 
 It answers one request after another, as `answering_program` asks them. A request has the file of a scenario, the folder
 for the results, and whether pictures are rendered. While the run goes on, the program says how far it is, and any other

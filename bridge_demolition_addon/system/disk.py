@@ -11,7 +11,7 @@ from ..errors import OutputError
 
 @contextmanager
 def whole_file(path: Path) -> Iterator[Path]:
-    """Give a file beside a path to write to, and have it take the place of the path once it is on the disk.
+    """Give a file next to a path to write to, and have it take the place of the path once it is on the disk.
 
     The file at the path stays until then, and stays where writing fails; an error of the system names the path.
     """
@@ -31,7 +31,7 @@ def whole_file(path: Path) -> Iterator[Path]:
 
 @contextmanager
 def whole_folder(path: Path) -> Iterator[Path]:
-    """Give a new folder beside a path to write to, and have it take the place of the path once all is in it.
+    """Give a new folder next to a path to write to, and have it take the place of the path once all is in it.
 
     There must be nothing at the path. Where writing fails, nothing is left; an error of the system that does not say
     more names the path.

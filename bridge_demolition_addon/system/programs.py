@@ -35,7 +35,7 @@ def program_command(
 def start_program(
     command: Sequence[str], errors: IO[bytes], environment: Mapping[str, str] | None = None
 ) -> tuple[subprocess.Popen[str], IO[str], IO[str]]:
-    """Start a program, and return it with the stream of its questions and that of its answers.
+    """Start a program, and return it with the streams of its questions and its answers.
 
     Ctrl-C does not get to it: the process that started it ends it.
     """

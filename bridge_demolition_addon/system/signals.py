@@ -1,4 +1,4 @@
-"""Signals that ask the program to end: Ctrl-C, and those of systems before they kill, and of a terminal that closes."""
+"""Signals that ask the program to end: Ctrl-C, a system's before it kills, and a closing terminal's."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class Interrupted(KeyboardInterrupt):
 
 
 def interrupt_by_system() -> None:
-    """Have those of the system raise `Interrupted` from now on, but those that are ignored, as `nohup` asks."""
+    """Have the system's signals raise `Interrupted` from now on, but ignored ones, as `nohup` asks."""
     for number in _heeded(_BY_SYSTEM):
         signal.signal(number, _interrupt)
 

@@ -237,7 +237,7 @@ def build_fields(scene: bpy.types.Scene, layer: bpy.types.ViewLayer) -> BuildCou
 
 
 def total_mass_kg(scene: bpy.types.Scene) -> float:
-    """Return the mass of all active bodies but balls, kg."""
+    """Return the total mass of active bodies without balls, kg."""
     active = [body for body in bodies_of(scene) if body.rigid_body.type == "ACTIVE"]
     return sum(body.rigid_body.mass for body in active if kind_of(body) != Kind.BALL)
 

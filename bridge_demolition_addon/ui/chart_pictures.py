@@ -44,7 +44,7 @@ def pictures_of(scene: bpy.types.Scene) -> list[Path]:
 
 
 def chart_of(scene: bpy.types.Scene) -> Path | None:
-    """Return the chart of forces of the shown run, a drawn one before that of the run itself; None without one."""
+    """Return the chart of forces of the shown run, a drawn one before the run's own; None without one."""
     return next((path for path in pictures_of(scene) if path.name == FORCE_CHART), None)
 
 

@@ -146,7 +146,7 @@ class BDA_OT_import_ifc(UndoableAction, ImportHelper, bpy.types.Operator):
     )
 
     def draw(self, _context: bpy.types.Context) -> None:
-        """Draw the choices beside the files."""
+        """Draw the choices next to the files."""
         layout = self.layout
         layout.use_property_split = True
         for name in ("material", "materials", "unit", "own_ground"):

@@ -45,7 +45,7 @@ class InView:
     debris_lines, limit_lines : (2 k, 3), (2 l, 3) float
         Outlines on the ground of the debris and of the exclusion zone as planned, m; none where there is none.
     debris_text, limit_text
-        What stands beside these, at the position of their corner with the largest x.
+        Texts next to these, at the position of their corner with the largest x.
     farthest_m : (3,) float or None
         Corner of the farthest debris.
     """

@@ -55,7 +55,7 @@ def _is_panel(cls: type) -> bool:
 
 
 def outer_first(panels: Sequence[type[bpy.types.Panel]]) -> list[type[bpy.types.Panel]]:
-    """Return panels from the outermost to the innermost, those of a panel in the order in which it shows them."""
+    """Return panels from the outermost to the innermost, subpanels in the order in which their panel shows them."""
     inside = defaultdict(list)
     for panel in panels:
         inside[getattr(panel, "bl_parent_id", "")].append(panel)

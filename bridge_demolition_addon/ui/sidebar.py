@@ -74,7 +74,7 @@ def draw_of_one_cut(layout: bpy.types.UILayout, context: bpy.types.Context) -> N
 
 
 def wrap(text: str, letters: int) -> list[str]:
-    """Wrap a text at a width in letters; those of Chinese are twice as wide as others."""
+    """Wrap a text at a width in letters; Chinese ones are twice as wide as others."""
     return textwrap.wrap(text, max(letters * len(text) // max(width_of(text), 1), 1))
 
 
@@ -84,7 +84,7 @@ def width_of(text: str) -> int:
 
 
 def redraw_sidebars(context: bpy.types.Context) -> None:
-    """Have the sidebars of all 3D views drawn again."""
+    """Have every 3D view's sidebar drawn again."""
     for window in context.window_manager.windows:
         for area in window.screen.areas:
             for region in area.regions:

@@ -83,7 +83,7 @@ def checked_in(scene: bpy.types.Scene) -> CheckedStages | None:
 
 
 def why_not_shown(scene: bpy.types.Scene) -> str | None:
-    """Return in a sentence why no stages are shown; None where they are those of what the panels show."""
+    """Return in a sentence why no stages are shown; None where they belong to what the panels show."""
     checked = checked_in(scene)
     if checked is None:
         return "Check the stages first"

@@ -117,7 +117,7 @@ def write(context: bpy.types.Context, x: float, y: float, text: str) -> None:
 
 
 def write_at(context: bpy.types.Context, position_m: tuple, text: str, dot: tuple | None = None) -> None:
-    """Write a text beside a position, m, on a dark ground, so that it can be read over any colour; `dot` marks it."""
+    """Write a text next to a position, m, on a dark ground, so that it can be read over any colour; `dot` marks it."""
     point = location_3d_to_region_2d(context.region, context.region_data, position_m)
     if point is None:
         return

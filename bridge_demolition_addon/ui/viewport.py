@@ -55,7 +55,7 @@ def look_at_other_bridge(context: bpy.types.Context, before_m: np.ndarray) -> No
 
 
 def bridge_box(context: bpy.types.Context) -> np.ndarray:
-    """Return the box (2, 3) around the middles of all shards, m; all 0 without any."""
+    """Return the box (2, 3) around the shards' middles, m; all 0 without any."""
     middles_m = np.array([shard.location for shard in shards_in_view(context)])
     return np.array([middles_m.min(axis=0), middles_m.max(axis=0)]) if len(middles_m) else np.zeros((2, 3))
 
@@ -69,7 +69,7 @@ def select_only(context: bpy.types.Context, objects: Iterable[bpy.types.Object])
 
 
 def look_at_selected(context: bpy.types.Context, surroundings: float = 1.0) -> None:
-    """Make the 3D view under the mouse, if any, show the selected objects beside the sidebar.
+    """Make the 3D view under the mouse, if any, show the selected objects clear of the sidebar.
 
     It looks from `surroundings` times as far away as needed.
     """
@@ -88,7 +88,7 @@ def look_at_selected(context: bpy.types.Context, surroundings: float = 1.0) -> N
 
 
 def look_at_box(context: bpy.types.Context, box_m: np.ndarray, rotation: Quaternion | None = None) -> None:
-    """Make the 3D view under the mouse, if any, show a box (2, 3), m, beside the sidebar.
+    """Make the 3D view under the mouse, if any, show a box (2, 3), m, clear of the sidebar.
 
     With a `rotation` it looks from there, without perspective.
     """

@@ -1,4 +1,4 @@
-"""The workspace BDA: the bridge with its sidebar, charts beside it and the timeline below, made by one button."""
+"""The workspace BDA: the bridge with its sidebar, charts at its side and the timeline below, made by one button."""
 
 from __future__ import annotations
 

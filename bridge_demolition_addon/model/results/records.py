@@ -126,7 +126,7 @@ class SolverEnergy:
 
     @property
     def counted_share(self) -> float:
-        """The share that counts; earlier versions took a share of what was dissipated."""
+        """The share that counts; earlier versions took the share of what was dissipated."""
         return self.share_of_dissipated if self.share_that_counts is None else self.share_that_counts
 
 

@@ -44,7 +44,7 @@ class ZoneBars:
 
     @property
     def sizes(self) -> str:
-        """Numbers by size."""
+        """Number of bars of each size."""
         count = f"{self.count:.0f}" if abs(self.count - round(self.count)) < _WHOLE else f"{self.count:.1f}"
         return f"{count} bars of {self.diameter_m / M_PER_MM:.3g} mm"
 

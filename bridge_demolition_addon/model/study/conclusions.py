@@ -90,7 +90,7 @@ def fragment_outputs(scenario: Scenario) -> dict[str, float]:
 
 
 def fragment_limits(table: RunsTable, quantile: float, confidence: float, rank: int) -> FragmentLimits | None:
-    """Return the limits from the table of all runs of a study; None without blast zones, as in earlier studies."""
+    """Return the limits from the table of a study's runs; None without blast zones, as in earlier studies."""
     if NEARLY_ALL not in table.outputs:
         return None
     runs = len(table)
@@ -217,7 +217,7 @@ class Conclusions:
 
 
 def conclusions(study: Study, table: RunsTable) -> Conclusions:
-    """Return the conclusions of a study from the table of all its runs."""
+    """Return the conclusions of a study from the table of its runs."""
     settings = study.settings
     if len(table) != settings.runs:
         raise OutputError(
@@ -268,7 +268,7 @@ def _doubtful_throws(study: Study, table: RunsTable) -> DoubtfulThrows | None:
 
 
 def debris_limit(distances_m: np.ndarray, quantile: float, confidence: float, rank: int) -> DebrisLimit:
-    """Return the limit of distances (n,) of all runs; infinity for each that did not finish."""
+    """Return the limit of the runs' distances (n,); infinity for each that did not finish."""
     runs, needed = len(distances_m), least_runs(quantile, confidence, rank)
     limit_m = nth_largest(distances_m, rank) if runs >= needed else math.inf
     has_rank = runs >= rank
@@ -300,9 +300,9 @@ def proportion(what: str, which: np.ndarray, confidence: float) -> Proportion:
 def simultaneous_limits(
     outputs: Mapping[str, np.ndarray], quantile: float, confidence: float
 ) -> SimultaneousLimits | None:
-    """Return limits of several outputs that hold together; None where there are too few runs for so many.
+    """Return limits of several outputs that hold together; None where there are too few runs for their number.
 
-    Values (n,) of all runs are infinite where a run did not finish. Choose the outputs before the runs.
+    The runs' values (n,) are infinite where a run did not finish. Choose the outputs before the runs.
     """
     runs = min(map(len, outputs.values()), default=0)
     support = most_support(runs, quantile, confidence) if runs else 0
@@ -347,8 +347,8 @@ def holds(zone: Zone, area: CrossSection) -> bool:
 def proportion_leaving(zone: Zone, swept: Iterable[Sequence[np.ndarray] | None], confidence: float) -> Proportion:
     """Return how often debris leaves a zone in plan that was fixed before the runs.
 
-    Each run has outlines (k, 2) of all that its debris covered at any time, or None where it did not finish, which
-    counts as one that left the zone.
+    Each run has outlines (k, 2) of what its debris covered at any time, or None where it did not finish, which counts
+    as one that left the zone.
     """
     left = [rings is None or (bool(len(rings)) and not holds(zone, CrossSection(list(rings)))) for rings in swept]
     return proportion(Text("left the zone {}", zone.name), np.array(left, bool), confidence)

@@ -111,7 +111,7 @@ class Criterion(Table):
 
     @property
     def limit_share(self) -> float | None:
-        """The share that is asked for, or that of its kind."""
+        """The share that is asked for, or its kind's."""
         return KINDS[self.kind].share if self.share is None else self.share
 
     def check_against(self, scenario: Scenario) -> None:
@@ -155,7 +155,7 @@ def pier_output(pier: int, quantity: str) -> str:
 
 
 def part_of_output(name: str) -> Text | None:
-    """Return the span or pier of which an output says how much of its height is lost at the end; None of others."""
+    """Return the span or pier whose loss of height at the end an output gives; None of others."""
     found = _LOST_AT_END.fullmatch(name)
     if not found:
         return None

@@ -1,6 +1,6 @@
 """Files of studies, searches and optimisations: TOML read strictly, with its scenario; names of files in their folders.
 
-The scenario lies beside them under its usual name. What is kept of a run lies in a folder of its own below
+The scenario lies next to them under its usual name. What is kept of a run lies in a folder of its own below
 `RUNS_FOLDER`, named by its cache key.
 """
 
@@ -136,7 +136,7 @@ def read_ensemble_file(
 
 
 def _where_it_is(path: Path) -> Path:
-    """Return a path, or where there is nothing the example beside it that has replaced it, and say so."""
+    """Return a path, or where there is nothing the example that has replaced it there, and say so."""
     renamed = path.with_name(RENAMED.get(path.name, path.name))
     if path.exists() or not renamed.is_file():
         return path
@@ -156,7 +156,7 @@ def study_of(settings: StudySettings, scenario: Scenario) -> Study:
 
 
 def variations_of(tables: Sequence[Vary], scenario: Scenario) -> tuple[Variation, ...]:
-    """Return what varies in a scenario, for each key of all tables."""
+    """Return what varies in a scenario, for each key of every table."""
     variations: dict[str, Variation] = {}
     for number, vary in enumerate(tables, start=1):
         try:

@@ -43,7 +43,7 @@ class ScenarioKey:
 
 
 def keys_named(scenario: Scenario, name: str) -> tuple[ScenarioKey, ...]:
-    """Return the key of a dotted name; several where it is that of all tables of a list."""
+    """Return the key of a dotted name; several where it stands for every table of a list."""
     parts = _parts(name)
     if parts[0] == Scenario.table:
         parts = parts[1:] if len(parts) > 1 else parts
@@ -63,9 +63,9 @@ def changed(scenario: Scenario, values: Mapping[ScenarioKey, Any]) -> Scenario:
 
 @cache
 def names_to_propose() -> tuple[str, ...]:
-    """Return the names of all keys that a scenario may have and a study may vary: numbers, choices, true or false.
+    """Return the names of the keys that a scenario may have and a study may vary: numbers, choices, true or false.
 
-    In lists they are those of all tables. Of several numbers it is the first.
+    In lists they stand for every table. Of several numbers it is the first.
     """
     return tuple(_names_to_propose(Scenario))
 

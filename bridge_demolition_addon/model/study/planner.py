@@ -43,12 +43,12 @@ class Planner(ABC, Generic[_Ensemble]):
         """Take the outcome of a run."""
 
     def rows(self) -> list[RunRow]:
-        """Return the rows of all runs that count so far, in the order of the table."""
+        """Return the rows of the runs that count so far, in the order of the table."""
         return [self._rows[number] for number in sorted(self._rows)]
 
     @property
     def table(self) -> RunsTable:
-        """The table of all runs that count so far."""
+        """The table of the runs that count so far."""
         return RunsTable(tuple(self.rows()))
 
     @property

@@ -45,7 +45,7 @@ def preview_scenario(scenario: Scenario, members: Sequence[Member]) -> Scenario:
     Parameters
     ----------
     members
-        All members of the scenario: each takes one shard at least, but those of steel, which have their own.
+        All members of the scenario: each takes one shard at least, but steel members have their own.
     """
     is_elastic = scenario.connections.is_elastic
     most = max(ELASTIC_SHARDS if is_elastic else SHARDS, sum(member.steel is None for member in members))
@@ -72,7 +72,7 @@ def preview_model(scenario: Scenario, models: KeptModels | None = None) -> tuple
 
 
 def in_shards(fracture: FractureSettings, most: int) -> FractureSettings:
-    """Return how a bridge is cut into at most so many shards."""
+    """Return how a bridge is cut into a number of shards at most."""
     fracture = replace(fracture, recursion_share=0.0)
     if fracture.shards <= most:
         return fracture

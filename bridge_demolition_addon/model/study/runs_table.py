@@ -1,7 +1,7 @@
 """Table of runs: a row for each run, with its inputs and outputs; also as a sheet, where XlsxWriter is installed.
 
-``pandas.read_csv("runs.csv")`` reads it. Columns of inputs begin with ``in.``, those of outputs with ``out.``, and both
-end in their unit. A cell of a run that did not finish, or of an unknown value, is empty.
+``pandas.read_csv("runs.csv")`` reads it. Columns of inputs begin with ``in.``, columns of outputs with ``out.``, and
+both end in their unit. A cell of a run that did not finish, or of an unknown value, is empty.
 """
 
 from __future__ import annotations
@@ -123,12 +123,12 @@ class RunsTable:
 
     @cached_property
     def inputs(self) -> tuple[str, ...]:
-        """Names of all inputs."""
+        """Names of the inputs."""
         return _names(row.inputs for row in self.rows)
 
     @cached_property
     def outputs(self) -> tuple[str, ...]:
-        """Names of all outputs."""
+        """Names of the outputs."""
         return _names(row.outputs for row in self.rows)
 
     def input(self, name: str) -> np.ndarray:

@@ -45,7 +45,7 @@ class SampledRun:
         return {"scenario": scenario_text(self.scenario), "study": self.ensemble.settings.shared_text}
 
     def cache_key(self, versions: Mapping[str, str]) -> str:
-        """Return the SHA-256, in hexadecimal digits, of all that the result of the run depends on."""
+        """Return the SHA-256, in hexadecimal digits, of everything that the result of the run depends on."""
         parts = [scenario_text(self.scenario), evaluation_settings(self.ensemble), *file_digests(self.scenario)]
         parts += [f"{name} {version}" for name, version in sorted(versions.items())]
         return _digest(*(part.encode() for part in parts)).hex()

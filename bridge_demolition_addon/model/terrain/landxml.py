@@ -27,7 +27,7 @@ _METRES = {"millimeter": 0.001, "centimeter": 0.01, "kilometer": 1000.0}
 
 
 def read_landxml(path: Path, name: str | None = None) -> FileHeights:
-    """Read the one surface of a file, or that of a name, with ``*`` for any letters."""
+    """Read the one surface of a file, or the one with a name, with ``*`` for any letters."""
     check_file(path, _MOST_BYTES)
     try:
         root = ElementTree.parse(path).getroot()
@@ -119,7 +119,7 @@ _LIMIT_S = 600.0
 
 
 def read_ifc_surface(path: Path, name: str | None) -> FileHeights:
-    """Return the ground of a file, in metres: of all elements that are ground, or of those of a name.
+    """Return the ground of a file, in metres: all elements that are ground, or the ones with a name.
 
     Where the file has a map conversion, it is in the map's coordinates.
     """

@@ -36,7 +36,7 @@ _FAR_M = 20_000.0
 class Placing:
     """Where a file's coordinates are in a scenario.
 
-    `origin` (3,) is that of the scenario in the file's units, `turn` (2, 2) rotates easting and northing into x and y,
+    `origin` (3,) is the scenario's origin in the file's units, `turn` (2, 2) rotates easting and northing into x and y,
     and `scale` is metres in one unit of the file.
     """
 

@@ -119,7 +119,7 @@ def _first_columns(lines: Sequence[str]) -> np.ndarray:
 
 
 def _columns(lines: Sequence[str], columns: Sequence[int]) -> np.ndarray:
-    """Return the numbers (n, 3) in some columns of each line, beside which there may be text."""
+    """Return the numbers (n, 3) in some columns of each line; other columns may hold text."""
     try:
         rows = [[words[column] for column in columns] for words in map(_names, lines)]
         return np.array(rows, dtype=float).reshape(-1, _FEWEST_COLUMNS)
@@ -136,7 +136,7 @@ def _words(text: str) -> list[str]:
 
 
 def _names(line: str) -> list[str]:
-    """Return what stands in the columns of a line, of which some may be empty."""
+    """Return the contents of a line's columns, some maybe empty."""
     separator = next((sign for sign in ";\t," if sign in line), None)
     return [word.strip().strip('"') for word in line.split(separator)]
 
@@ -149,7 +149,7 @@ def _named_columns(names: Sequence[str]) -> tuple[int, ...]:
 
 
 def _with_points(text: str) -> str:
-    """Return lines with decimal points where they have decimal commas, beside other separators."""
+    """Return lines with decimal points where they have decimal commas and other separators."""
     lines = [line for line in text.splitlines() if line.strip() and not line.lstrip().startswith("#")]
     last = lines[-1].strip() if lines else ""
     is_apart = ";" in last or "\t" in last or len(last.replace(", ", ",").split()) >= _FEWEST_COLUMNS
@@ -197,8 +197,7 @@ _HOW = "point clouds in LAS are read by laspy: install it with pip install 'brid
 def read_cloud(path: Path, most_points: int = MOST_POINTS) -> tuple[np.ndarray, np.ndarray]:
     """Return the points (n, 3) of a cloud, in its own coordinates, and their classes (n,); 2 is ground.
 
-    The classes are those of the ASPRS, *LAS specification 1.4*, table 17. Raise `UnreadableError` where the file cannot
-    be read.
+    Classes: ASPRS, *LAS specification 1.4*, table 17. Raise `UnreadableError` where the file cannot be read.
     """
     check_file(path, MOST_BYTES)
     if find_spec("laspy") is None:

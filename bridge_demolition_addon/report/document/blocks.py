@@ -154,7 +154,7 @@ class Document:
         return (*self.control.cover, *self.summary, *self.control.signatures)
 
     def blocks(self) -> Iterator[Block]:
-        """Return all blocks of the first page and of all sections in order."""
+        """Return the blocks of the first page and of every section in order."""
         yield from self.first_page
         for section in self.sections:
             yield from section.blocks

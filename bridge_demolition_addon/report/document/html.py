@@ -57,7 +57,7 @@ figure.model input { flex: 1; }
 
 
 def write_html(document: Document, drawings: Drawings, path: Path, translation: Translation = IN_ENGLISH) -> None:
-    """Write a report as a page; `translation` has the words that the page adds, such as those of its buttons."""
+    """Write a report as a page; `translation` has the words that the page adds, such as on its buttons."""
     write_whole_text(path, "\n".join(_lines(document, drawings, translation)) + "\n")
 
 

@@ -119,7 +119,7 @@ class Page:
 
 
 class PageFile(PdfFile):
-    """A PDF whose lines of text are put together of words and letters, each of which matplotlib is asked for once.
+    """A PDF whose lines of text are put together of words and letters; matplotlib is asked for each one once.
 
     It has bookmarks and its language, which matplotlib does not write: so the root of the file is written last.
     """
@@ -163,7 +163,7 @@ class PageFile(PdfFile):
         return whole
 
     def output(self, *data: Any) -> None:
-        """Write operators, or note those of a letter."""
+        """Write operators, or note a letter's."""
         if self._noted is None:
             super().output(*data)
         else:

@@ -274,7 +274,7 @@ class _Pages:
         self._y += 4.0
 
     def _photos(self, photos: PhotoRow, scale: float) -> None:
-        """Put photos beside each other, each with its caption."""
+        """Put photos side by side, each with its caption."""
         top_mm, height_mm, width_mm = self._y, scale * drawn_height_mm(photos), scale * photos.width_mm
         left_mm = LEFT_MM + (PAGE_WIDTH_MM - len(photos.photos) * width_mm - photos.gaps_mm) / 2.0
         lowest_mm = top_mm

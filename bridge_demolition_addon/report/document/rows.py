@@ -1,4 +1,4 @@
-"""Rows on the pages of a PDF: tables whose texts fit beside each other, drawings, and photos beside each other."""
+"""Rows on the pages of a PDF: tables whose texts fit side by side, drawings, and photos side by side."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ Cells = Sequence[Sequence[str]]
 
 @dataclass(frozen=True, slots=True)
 class Rows:
-    """A table as it is laid out: the lines of all cells, and the widths of its columns in mm."""
+    """A table as it is laid out: the lines of its cells, and the widths of its columns in mm."""
 
     columns: Sequence[Column]
     headings: Cells
@@ -101,7 +101,7 @@ PHOTO_DOTS_PER_INCH = 150.0
 
 @dataclass(frozen=True, slots=True)
 class PhotoRow:
-    """Photos that stand beside each other."""
+    """Photos side by side."""
 
     photos: tuple[Photo, ...]
 

@@ -82,7 +82,7 @@ class _Word:
         page.top_margin = page.bottom_margin = Mm(_MARGINS_MM[1])
 
     def title(self, document: Document) -> None:
-        """Write title, summary, and the foot of all pages."""
+        """Write title, summary, and the foot of every page."""
         about = self._file.core_properties
         about.title, about.author, about.comments = document.title[:255], document.control.author[:255], ""
         about.subject = document.subtitle[:255]

@@ -69,7 +69,7 @@ def areas_of_fragments_in(runs: StudyRuns) -> dict[str, CrossSection]:
 
 
 def plan_picture(runs: StudyRuns) -> Picture:
-    """Return the plan of a study of which a run finished."""
+    """Return the plan of a study with a finished run."""
     settings, scenario = runs.ensemble.settings, runs.ensemble.scenario
     likely = _likely_by_words(runs)
     limits: dict[str, CrossSection] = {

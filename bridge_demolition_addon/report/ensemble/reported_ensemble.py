@@ -28,7 +28,7 @@ from ..run_folder import pictures_in
 
 @dataclass(frozen=True, eq=False)
 class ReportedEnsemble:
-    """Runs, and what was asked; the name is that of their folder, versions are by name."""
+    """Runs, and what was asked; the name is their folder's, versions are by name."""
 
     name: str
     ensemble: Ensemble
@@ -60,12 +60,12 @@ class ReportedEnsemble:
 
     @property
     def varied(self) -> tuple[str, ...]:
-        """Names of all inputs but the seed, which has no order, and those that only say what a run is for."""
+        """Names of the inputs but the seed, which has no order, and the ones that only say what a run is for."""
         return tuple(name for name in self.table.inputs if name not in (SEED, CANDIDATE, ROUND))
 
     @cached_property
     def numbers(self) -> tuple[str, ...]:
-        """Names of all outputs that are numbers, not all of them the same."""
+        """Names of outputs that are numbers and differ between runs."""
         of_numbers = [name for name in self.table.outputs if self.table.output(name).dtype == float]
         return tuple(name for name in of_numbers if len(np.unique(_finite(self.table.output(name)))) > 1)
 
@@ -115,7 +115,7 @@ class StudyRuns(ReportedEnsemble):
 
     @cached_property
     def likely(self) -> dict[float, CrossSection]:
-        """Where debris may be likelier than each of the levels that so many runs resolve, the largest area first."""
+        """Where debris may be likelier than each level that this number of runs resolves, the largest area first."""
         plan = self.map
         return {level: plan.area_above(level) for level in sorted(LEVELS) if plan.resolves(level)} if plan else {}
 
@@ -140,7 +140,7 @@ class StudyRuns(ReportedEnsemble):
 
     @property
     def hull_corners(self) -> int:
-        """How many corners the convex hull of all that debris covered has; 0 where it covered nothing."""
+        """How many corners the convex hull of the area covered by debris has; 0 where it covered nothing."""
         hull = CrossSection()
         for rings in self.swept:
             if rings:
@@ -181,7 +181,7 @@ def _common_plan(plans: Iterable[Iterable]) -> CrossSection:
 
 
 def _pictures(folder: Path, run_folders: Mapping[int, Path]) -> dict[int, dict[str, Path]]:
-    """Return pictures of runs that were repeated, or of which everything was kept, by number and name."""
+    """Return pictures of runs that were repeated or kept whole, by number and name."""
     pictures_by_run = {}
     for number, run_folder in run_folders.items():
         for run in (folder / AGAIN_FOLDER / str(number), run_folder / RUN_FOLDER):

@@ -37,7 +37,7 @@ from .runs import extremes_section, runs_section
 
 
 def study_summary(runs: StudyRuns, flyrock: Flyrock | str | None = None) -> tuple[Block, ...]:
-    """Return what stands on the first page, what makes runs doubtful first; `flyrock` is that of the scenario."""
+    """Return what stands on the first page, what makes runs doubtful first; `flyrock` is the scenario's."""
     picture = () if runs.bridge.is_empty() else (plan_picture(runs),)
     verdict = unfinished_sentence(runs, runs.ensemble.settings.runs)
     if runs.conclusions:
@@ -100,7 +100,7 @@ def study_report(runs: StudyRuns, target: Path, progress: Progress) -> Report:
 
 
 def study_document(runs: StudyRuns, version: str, files: Sequence[str] = ()) -> Document:
-    """Return the page of a study, of which one run at least is there.
+    """Return the page of a study with one run at least.
 
     Parameters
     ----------

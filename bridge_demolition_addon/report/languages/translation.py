@@ -50,7 +50,7 @@ class ReportTexts:
 
 
 def language_names() -> tuple[str, ...]:
-    """Return the names of all languages that reports can be in, English first."""
+    """Return the names of the languages that reports can be in, English first."""
     return ENGLISH, *sorted(path.stem for path in FOLDER.glob("*.toml"))
 
 
@@ -63,7 +63,7 @@ def check_language(name: str) -> str:
 
 @lru_cache
 def language_table(name: str) -> ReportTexts:
-    """Read the table of a language; that of English has no texts."""
+    """Read the table of a language; the English table has no texts."""
     if check_language(name) == ENGLISH:
         return ReportTexts(ENGLISH, "en-GB", False, {})
     read = tomllib.loads((FOLDER / f"{name}.toml").read_text(encoding="utf-8"))
@@ -72,7 +72,7 @@ def language_table(name: str) -> ReportTexts:
 
 
 def texts_of_kinds(language: str) -> Callable[..., dict[str, str]]:
-    """Return what gives the translations of all kinds of actions in a part of their files: the report, or the window.
+    """Return what gives the translations of every kind of action in a part of their files: the report, or the window.
 
     A kind has its texts in one file, ``kinds/NAME.toml``, in all languages.
     """
@@ -107,7 +107,7 @@ class Translation:
 
     @property
     def converts(self) -> bool:
-        """Whether the units of the report are not those of its files."""
+        """Whether the report has other units than its files."""
         return self.system is not UnitSystem.METRIC
 
     def text(self, text: str) -> str:
@@ -148,7 +148,7 @@ class Translation:
         return IMPERIAL.get(unit) if self.converts else None
 
     def unit(self, metric: str) -> str:
-        """Return the symbol of a unit in the report; names of several words are those of the language."""
+        """Return the symbol of a unit in the report; names of several words follow the language."""
         conversion = self.conversion(metric)
         symbol = conversion.unit if conversion else metric
         return self.table.texts.get(symbol, symbol) if " " in symbol else symbol

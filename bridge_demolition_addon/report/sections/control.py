@@ -32,7 +32,7 @@ def document_control(scenario: Scenario | None, fingerprint: Mapping[str, str] |
 
 
 def _facts(settings: ReportSettings, site: Site | None) -> Iterator[tuple[str, str]]:
-    """Yield what is given, by its name; coordinates only beside it."""
+    """Yield what is given, by its name; coordinates only next to it."""
     given = (
         (Text("Project"), settings.project),
         (Text("Number"), settings.document_number),

@@ -46,7 +46,7 @@ _NOTES = Text(
 
 
 def bearing_blocks(run: ReportedRun) -> list[Block]:
-    """Return a table and a chart of all bearings of a run; none without `[[bearings]]`."""
+    """Return a table and a chart of a run's bearings; none without `[[bearings]]`."""
     of_all = bearing_histories(run.recorded, bearing_tables(run.scenario) if run.scenario else ())
     histories = [bearing for bearing in of_all if np.isfinite(bearing.forces_n[1:]).any()]
     extremes = run.summary.bearings if run.summary else ()

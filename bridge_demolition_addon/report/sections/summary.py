@@ -54,7 +54,7 @@ def run_summary(run: ReportedRun, debris: Debris | None, flyrock: Flyrock | str 
 
 
 def verdict_of(run: ReportedRun, distance_m: float) -> str:
-    """Return the verdict on a run with shards, debris of which got so far from the bridge's plan, m."""
+    """Return the verdict on a run with shards, by how far their debris got from the bridge's plan, m."""
     lost = lost_shares(_spans(run))
     if not run.ending.has_outcome:
         return verdict_so_far(lost, distance_m)

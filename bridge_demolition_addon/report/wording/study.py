@@ -21,7 +21,7 @@ _DOUBT = Text("All of these are known within a factor of 2: factor 2, no safety 
 
 
 def input_names(ensemble: Ensemble) -> list[str]:
-    """Return what varies, as a study names it: a key of all tables of a list only once."""
+    """Return what varies, as a study names it: a key of every table of a list only once."""
     zones = ensemble.scenario.blast_zones
     misfires = [Text("which blast zones fire")] if any(zone.probability_fires < 1.0 for zone in zones) else []
     return [*(vary.key for vary in ensemble.settings.vary), *misfires, Text("the seed of the fracture")]
@@ -63,7 +63,7 @@ def study_sentences(study: Study, conclusions: Conclusions) -> Iterator[str]:
 
 
 def fragments_sentence(limits: FragmentLimits, cordon_m: float | None) -> str:
-    """Return how far fragments of blast zones fly, beside two rules and the cordon of the scenario, if any."""
+    """Return how far fragments of blast zones fly, with two rules and the scenario's cordon, if any."""
     rules = Text(
         "By Lundborg they fly up to {}, by McKenzie up to {}, as if nothing covered the holes",
         distance_to_keep(rounded_up(limits.lundborg_m, "1")),

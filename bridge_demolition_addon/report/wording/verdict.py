@@ -1,4 +1,4 @@
-"""The verdict of a report in one sentence, and what stands beside each debris distance: small fragments, a cordon."""
+"""The verdict of a report in one sentence, and what goes with each debris distance: small fragments, a cordon."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def run_verdict(lost: Mapping[str, float], distance_m: float, end: str, *, is_fi
 
 
 def verdict_so_far(lost: Mapping[str, float], distance_m: float) -> str:
-    """Return how far a run without an outcome had got when it ended; arguments are those of `run_verdict`."""
+    """Return how far a run without an outcome had got when it ended; arguments as in `run_verdict`."""
     return Text("Up to then {}, and {}.", _spans(lost, is_final=False), _debris(distance_m))
 
 
@@ -112,7 +112,7 @@ Distance = tuple[float, str]
 
 @dataclass(frozen=True, slots=True)
 class Flyrock:
-    """How far fragments of all zones fly: sampled under their cover, and the largest by each rule without one, m."""
+    """How far fragments of the zones fly: sampled under their cover, and the largest by each rule without one, m."""
 
     sampled: tuple[object, ...]  # the pattern of a text on those, and its values but for the last
     farthest_m: float  # 0 where nothing is sampled

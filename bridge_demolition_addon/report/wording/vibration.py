@@ -15,7 +15,7 @@ def limits_text(velocity_m_s: float, frequency_hz: float) -> str:
 
 
 def limit_table() -> DataTable:
-    """Return the limits of all kinds of buildings by frequency."""
+    """Return the limits of every kind of building by frequency."""
     columns = (
         Column("building", "building", "", lambda limit: limit.building),
         *(_at(frequency_hz) for frequency_hz in FREQUENCIES_HZ),

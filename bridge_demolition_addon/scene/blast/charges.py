@@ -53,7 +53,7 @@ def create_charges(scene: bpy.types.Scene, charges: Iterable[Charge]) -> list[bp
 
 
 def replace_charges(scene: bpy.types.Scene, charges: Iterable[Charge]) -> list[bpy.types.Object]:
-    """Make an empty for each charge, at its position, in place of all charges of the scene."""
+    """Make an empty for each charge, at its position, in place of the scene's charges."""
     bpy.data.batch_remove(charge_objects(scene))
     return create_charges(scene, charges)
 

@@ -46,7 +46,7 @@ class FieldReach:
 
 
 def isolating_reaches(bodies: np.ndarray, directions: np.ndarray, centres: np.ndarray) -> FieldReach:
-    """Return cylinders about k bodies of which none contains the centre of another body.
+    """Return cylinders about k bodies; none contains the centre of another body.
 
     Each of the bodies (k,) is pushed along a unit vector (k, 3); all n bodies have centres of mass (n, 3), m.
     """
@@ -85,7 +85,7 @@ class BuildCount:
 
 
 def build_force_objects(scene: bpy.types.Scene, bodies: Iterable[bpy.types.Object]) -> BuildCount:
-    """Give each body one force field, and remove those of bodies that are gone."""
+    """Give each body one force field, and remove the fields of bodies that are gone."""
     pushed = [body for body in bodies if body.rigid_body.type == "ACTIVE"]
     if not pushed:
         raise SimulationError("no active body to push: give the bridge's shards an active rigid body first")

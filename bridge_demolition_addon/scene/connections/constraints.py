@@ -1,4 +1,4 @@
-"""Connections as Blender's rigid-body constraints: between which bodies, of which kind, and what breaks them."""
+"""Connections as Blender's rigid-body constraints: their bodies, their kinds, and what breaks them."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def ends_of(connection: bpy.types.Object) -> set[bpy.types.Object | None]:
 
 
 def loose_connections(scene: bpy.types.Scene) -> list[bpy.types.Object]:
-    """Return connections that lack a body of the scene's world, such as those of a deleted shard: they do nothing."""
+    """Return connections that lack a body of the scene's world, such as with a deleted shard: they do nothing."""
     bodies = set(bodies_of(scene))
     return [connection for connection in connections_of(scene) if not ends_of(connection) <= bodies]
 
@@ -235,7 +235,8 @@ class Breaking:
     Attributes
     ----------
     strength
-        Strength of all connections with an area, or of each; None where Blender's breaking threshold alone decides.
+        Common strength of connections with an area, or the strength of each; None where Blender's breaking threshold
+        alone decides.
     warm_up_s
         Simulated time from the start in which nothing breaks, so that the structure can settle under its own weight.
     ductility

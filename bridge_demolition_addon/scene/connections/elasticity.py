@@ -34,8 +34,8 @@ _UNCOUPLED = 7
 class ConnectionElasticity:
     """Elasticity of m connections.
 
-    The damping ratio is that of the first frequency, as a share of the critical damping. Thicknesses (m,) are those of
-    the members that connections are in; nan where they are not known.
+    The damping ratio is the first frequency's, as a share of the critical damping. Thicknesses (m,) are of the members
+    that connections are in; nan where they are not known.
     """
 
     damping_ratio: float

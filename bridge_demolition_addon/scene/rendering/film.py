@@ -93,7 +93,7 @@ def _set_up_encoder(render: bpy.types.RenderSettings, pictures_per_second: float
 
 
 def _lay_out(scene: bpy.types.Scene, pictures: Sequence[Path]) -> None:
-    """Make one strip of all pictures, from the first frame on."""
+    """Make one strip of the pictures, from the first frame on."""
     editor = scene.sequence_editor_create()
     strips = editor.strips if hasattr(editor, "strips") else editor.sequences  # their name before Blender 4.4
     strip = strips.new_image("Pictures", str(pictures[0]), 1, 1)

@@ -29,7 +29,7 @@ _LOCKED = "bda_markers_locked"
 
 
 def mark_moments(scene: bpy.types.Scene, moments: Iterable[tuple[int, str]]) -> None:
-    """Mark frames by name, in place of those of the run before.
+    """Mark frames by name, in place of the markers of the run before.
 
     Where the user has no markers, they are locked: in a low timeline they cover the ruler, and a drag along it would
     move one of them.

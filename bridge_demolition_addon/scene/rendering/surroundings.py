@@ -35,8 +35,8 @@ def aim_camera(
 ) -> bpy.types.Object:
     """Add a camera to the scene, or to a collection of it, and make it the scene's.
 
-    Unless the view gives its position, it sees points (n, 3), m, from beside the road or on its way round the bridge.
-    The aspect is width : height of the pictures.
+    Unless the view gives its position, it sees points (n, 3), m, from the roadside or on its way round the bridge. The
+    aspect is width : height of the pictures.
     """
     camera = bpy.data.objects.new("Bridge camera", bpy.data.cameras.new("Bridge camera"))
     camera.data.lens, camera.data.sensor_width = _LENS_MM, _SENSOR_MM
@@ -254,7 +254,7 @@ def _lowest_ground(scene: bpy.types.Scene) -> float:
 
 
 def _land(half_size_m: float, height_m: float) -> bpy.types.Object:
-    """Make ground to the horizon, just below that of the simulation."""
+    """Make ground to the horizon, just below the simulation's."""
     size = 2.0 * half_size_m
     mesh = mesh_of("Land", box((size, size, _LAND_THICKNESS_M), (0.0, 0.0, min(height_m, 0.0) - _LAND_THICKNESS_M)))
     mesh.materials.append(material_of(SurfaceMaterial.SOIL))
@@ -320,7 +320,7 @@ def stage(
 ) -> None:
     """Make a demolition look real that was just built of a model, with its shards in the model's order.
 
-    The camera sees points (k, 3), m; without a view it stands beside the road. Nothing of this takes part in the
+    The camera sees points (k, 3), m; without a view it stands at the roadside. Nothing of this takes part in the
     simulation.
     """
     _finish_shards(shards, model)

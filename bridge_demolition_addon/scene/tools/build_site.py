@@ -29,6 +29,6 @@ class BuildSite:
         return FIRST_STEP_FRAME + self.timeline.frames_until(time_s)
 
     def frames_and_times(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return all frames (k,) from that of the time 0 on, and their times (k,), s."""
+        """Return all frames (k,) from time 0 on, and their times (k,), s."""
         times = np.concatenate(([0.0], self.timeline.ends_s))
         return FIRST_STEP_FRAME - 1 + np.arange(len(times)), times

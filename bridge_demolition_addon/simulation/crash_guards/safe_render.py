@@ -1,8 +1,8 @@
 """Renders of frames that were not played, without a crash.
 
-A render works on copies of its own, beside those of the window, and both share one Bullet world. If the render is the
-first to simulate, Blender makes bodies of meshes that are not there yet, and crashes, then or at the next step. So the
-world of a demolition rests while it is rendered, unless its frames were played before and are known.
+A render works on copies of its own, next to the window's, and both share one Bullet world. If the render is the first
+to simulate, Blender makes bodies of meshes that are not there yet, and crashes, then or at the next step. So the world
+of a demolition rests while it is rendered, unless its frames were played before and are known.
 """
 
 import bpy

@@ -126,7 +126,7 @@ class FilmRendering:
 
 
 def _frames_of_films(series: ContourSeries, settings: FilmSettings) -> dict[str, list[int]]:
-    """Return the frame of every picture of each film; those of a series of pictures count as a film's."""
+    """Return the frame of every picture of each film; frames of a series of pictures count as a film's."""
     if settings.kind == FilmKind.PICTURES:
         return {FILM_FILE: series.frames}
     films = {FILM_FILE: settings.slowness}

@@ -50,7 +50,7 @@ def stage_of_pictures(view: PictureSettings) -> str:
 
 
 def time_of_cycles_text(view: PictureSettings, count: int) -> str:
-    """Return how long the pictures of a run take by Cycles on so many processors, roughly."""
+    """Return how long the pictures of a run take by Cycles on a number of processors, roughly."""
     needed_s = len(PICTURE_NAMES) * _SECONDS_PER_MEGAPIXEL * view.width_px * view.height_px / 1e6 / count
     rounded = f"{max(1, round(needed_s / 60.0))} min" if needed_s >= 90.0 else f"{max(5, 5 * round(needed_s / 5.0))} s"
     on = "1 processor" if count == 1 else f"{count} processors"

@@ -25,7 +25,7 @@ class ShownResults:
     number
         Another number for other results.
     stays_placed
-        Whether bodies are shown where they were recorded also without contours, as what is drawn beside them is of the
+        Whether bodies are shown where they were recorded also without contours, as what is drawn with them is of the
         recorded frame.
     missing
         Why the results of the run of an opened file are not shown; empty where they are, or the file has no run.

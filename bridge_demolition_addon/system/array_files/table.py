@@ -26,7 +26,7 @@ _ALIGNMENT = 64
 
 
 class GrowingTable:
-    """A file ``.npy`` of rows with named columns, each of which is on the disk as soon as it is added.
+    """A file ``.npy`` of rows with named columns, each row on the disk as soon as it is added.
 
     A file that is at the path is replaced. The rows can be read while it grows, also from other threads. A process that
     is killed leaves a file with all whole rows. Rows that were read or mapped stay as they are, whatever happens to the

@@ -1,1 +1,1 @@
-"""Another run beside the one that is shown."""
+"""Another run next to the one that is shown."""

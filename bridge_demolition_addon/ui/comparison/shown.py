@@ -1,4 +1,4 @@
-"""Another run that is shown beside the scene's own: surfaces, key figures, and their drawing in the 3D view."""
+"""Another run that is shown next to the scene's own: surfaces, key figures, and their drawing in the 3D view."""
 
 from __future__ import annotations
 
@@ -177,7 +177,7 @@ class DrawnRun:
 
 
 def other_run(scene: bpy.types.Scene) -> OtherRun | None:
-    """Return the run that a scene shows beside its own; None where it shows none. OutputError where it is gone."""
+    """Return the run that a scene shows next to its own; None where it shows none. OutputError where it is gone."""
     if not scene.bda.compared_folder:
         return None
     folder = Path(scene.bda.compared_folder)
@@ -203,7 +203,7 @@ def forget() -> None:
 
 
 def shift_beside(scene: bpy.types.Scene, run: OtherRun) -> float:
-    """Return how far along y a run has to be drawn to stand beside the bridge of the scene, m."""
+    """Return how far along y a run has to be drawn to stand next to the bridge of the scene, m."""
     plan = plan_of(scene)
     top = plan.bounds()[3] if plan is not None and not plan.is_empty() else 0.0
     return float(np.ceil(top - run.plan_m[1] + _GAP_M))
@@ -244,7 +244,7 @@ def drawn_run(scene: bpy.types.Scene) -> DrawnRun | None:
 
 
 def colours_of(scene: bpy.types.Scene, run: OtherRun, row: int) -> np.ndarray:
-    """Return the colours (n, 3) of the bodies: those of the contours, by the scale of this run, where it has them."""
+    """Return the colours (n, 3) of the bodies: from the contours, by the scale of this run, where it has them."""
     plain = np.tile(_COLOUR, (len(run.series.body_names), 1))
     contours = contours_of(scene)
     settings = contours.settings

@@ -1,4 +1,4 @@
-"""Panel of another run beside this one: settings, buttons, and the key figures of both."""
+"""Panel of another run next to this one: settings, buttons, and the key figures of both."""
 
 from pathlib import Path
 

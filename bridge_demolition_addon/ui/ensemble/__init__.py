@@ -1,1 +1,1 @@
-"""Studies, searches and optimisations beside Blender's work: one session, one shape of panel, three kinds."""
+"""Studies, searches and optimisations during Blender's work: one session, one shape of panel, three kinds."""

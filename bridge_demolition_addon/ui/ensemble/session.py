@@ -1,4 +1,4 @@
-"""Studies, searches and optimisations at work beside Blender, and the results of those that ended last.
+"""Studies, searches and optimisations at work outside Blender, and the results of the ones that ended last.
 
 There is one of each kind at most. Runs are made in processes of their own. A few times a second Blender looks for those
 that have ended, and answers the user meanwhile.
@@ -58,7 +58,7 @@ class Work:
     Parameters
     ----------
     key
-        Begin of the names of its properties in the scene, and end of those of its buttons: ``optimise``.
+        Begin of its properties' names in the scene, and end of its buttons' names: ``optimise``.
     name
         Its name in messages: ``optimisation``.
     settings_class
@@ -145,7 +145,7 @@ class Work:
 
 
 def look_in() -> float | None:
-    """Take the runs of all kinds that have ended, and return when Blender's timer calls again, s."""
+    """Take the ended runs of every kind, and return when Blender's timer calls again, s."""
     for work in WORKS:
         work.look_in()
     return _LOOK_EVERY_S if any(work.session for work in WORKS) else None

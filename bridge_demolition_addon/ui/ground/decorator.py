@@ -328,7 +328,7 @@ def _flashes(scene: bpy.types.Scene, _layer: bpy.types.ViewLayer) -> Iterator[Dr
 def _blast_zones(scene: bpy.types.Scene, _layer: bpy.types.ViewLayer) -> Iterator[Drawn]:
     """Zones before they fire, with the time at which they do; a flash as they do so.
 
-    Where nothing is built, and as time begins, they are those of the panels, which may have changed since.
+    Where nothing is built, and as time begins, the zones are the panels', which may have changed since.
     """
     start_s = blast_of(scene).start_s
     now_s = simulated_time_s(scene, FIRST_STEP_FRAME) if scene.rigidbody_world else 0.0

@@ -203,7 +203,7 @@ def ground_under(context: bpy.types.Context, mouse_x: int, mouse_y: int) -> tupl
 
 
 def add_zone(scene: bpy.types.Scene, corners_m: list[tuple[float, float]]) -> str:
-    """Add a zone to those of the scenario, show it, and return its name."""
+    """Add a zone to the scenario, show it, and return its name."""
     group = scene.bda.scenario
     taken = {zone.name for zone in group.zones}
     name = next(name for number in range(1, len(taken) + 2) if (name := f"Zone {number}") not in taken)

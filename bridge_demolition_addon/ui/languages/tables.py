@@ -1,4 +1,4 @@
-"""The tables of all languages, handed to Blender while the add-on is switched on."""
+"""The languages' tables, handed to Blender while the add-on is switched on."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ class LanguageTable:
         return cls(tuple(parts["locales"]), labels, sentences, tooltips)
 
     def translations(self) -> Translations:
-        """Return all texts that Blender may ask for, those of keys of a scenario put together."""
+        """Return all texts that Blender may ask for, texts of a scenario's keys put together."""
         return {
             **{(CONTEXT, english): own for english, own in (self.sentences | self.labels).items()},
             **{(_ALL, english): own for english, own in self.tooltips.items()},
@@ -70,7 +70,7 @@ class LanguageTable:
 
 
 def table_files() -> list[Path]:
-    """Return the files of all languages."""
+    """Return the languages' files."""
     return sorted(FOLDER.glob("*.toml"))
 
 

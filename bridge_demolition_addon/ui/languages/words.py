@@ -25,7 +25,7 @@ def translated(text: str) -> str:
 
 
 def in_own_context(cls: type) -> type:
-    """Return a class that is about to be registered, with its label and those of its properties in this context."""
+    """Return a class that is about to be registered, with its label and its properties' labels in this context."""
     if not issubclass(cls, bpy.types.PropertyGroup):
         cls.bl_translation_context = CONTEXT
     for base in cls.__mro__:

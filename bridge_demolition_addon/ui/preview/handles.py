@@ -64,7 +64,7 @@ class Handle:
 
 
 def handles(scene: bpy.types.Scene) -> list[Handle]:
-    """Return all points of a scene that can be dragged; those of the ball only over a bridge of the panels.
+    """Return all points of a scene that can be dragged; the ball's only over a bridge of the panels.
 
     A size in the panels that cannot be used raises ScenarioError, which names the key.
     """
@@ -121,7 +121,7 @@ def _of_ball(scene: bpy.types.Scene) -> Iterator[Handle]:
 
 
 def _of_charges(scene: bpy.types.Scene) -> Iterator[Handle]:
-    """Give those of charges that have no parent and no constraint, which would move them back."""
+    """Give the handles of charges without a parent or a constraint, which would move them back."""
     for index, charge in enumerate(charge_objects(scene)):
         if not charge.parent and not len(charge.constraints) and not charge.library:
             for is_upright in (False, True):
@@ -131,7 +131,7 @@ def _of_charges(scene: bpy.types.Scene) -> Iterator[Handle]:
 
 
 def _of_zones(scene: bpy.types.Scene) -> Iterator[Handle]:
-    """Give those of zones of the panels that lie in their members, until time begins: then these move away."""
+    """Give the handles of the panels' zones that lie in their members, until time begins: then these move away."""
     if scene.rigidbody_world and simulated_time_s(scene, FIRST_STEP_FRAME) > 0.0:
         return
     try:
@@ -179,7 +179,7 @@ class BDA_GGT_handles(bpy.types.GizmoGroup):
         self.made: dict[tuple, bpy.types.Gizmo] = {}
 
     def draw_prepare(self, context: bpy.types.Context) -> None:
-        """Put a gizmo at each handle before all are drawn, and hide those of handles that are gone."""
+        """Put a gizmo at each handle before all are drawn, and hide the gizmos of handles that are gone."""
         try:
             wanted = handles(context.scene)
         except ScenarioError:  # the panel Scenario says what is wrong
@@ -276,7 +276,7 @@ class BDA_OT_drag_handle(Action, bpy.types.Operator):
         raise ScenarioError(f"there is no {kind} {self.index + 1} here to be dragged")
 
     def _follow(self, context: bpy.types.Context, event: bpy.types.Event) -> None:
-        """Move it as far as the mouse was moved since it was pressed, which was beside the middle of the handle."""
+        """Move it as far as the mouse was moved since it was pressed, which was off the middle of the handle."""
         under = _position_under(context, event, self._start, 2 if self.is_upright else self._axis)
         if under is None:
             return

@@ -1,4 +1,4 @@
-"""A coarse run of what the panels show, in a process of its own beside Blender, and its drawing in the 3D view.
+"""A coarse run of what the panels show, in a process of its own outside Blender, and its drawing in the 3D view.
 
 A few times a second Blender looks whether the panels show another scenario, has it run in place of the one before, and
 takes what is known of it by now. Nothing of it gets into the scene: the switch, too, is of this session alone.

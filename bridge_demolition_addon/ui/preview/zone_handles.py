@@ -60,7 +60,7 @@ def ends_of(placed: PlacedZone) -> Iterator[tuple[tuple[float, float, float], in
 
 
 def drag_zone(settings: bpy.types.PropertyGroup, index: int, direction: int, along_m: float) -> None:
-    """Move a zone along its member (0), or its begin (-1) or end (1), within its member and beside other zones."""
+    """Move a zone along its member (0), or its begin (-1) or end (1), within its member and clear of other zones."""
     zones = zones_shown(settings)
     placed = zones[index] if index < len(zones) else None
     if placed is None:

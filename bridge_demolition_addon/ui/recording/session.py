@@ -116,7 +116,7 @@ class BDA_OT_set_force_log(_LogPathOperator, bpy.types.Operator):
 def new_folder(title: str) -> Path:
     """Return a folder for a run that is not there yet: named after its scenario, with the next free number.
 
-    It is beside the saved file, or in the user's documents where the file has not been saved.
+    It is next to the saved file, or in the user's documents where the file has not been saved.
     """
     saved = bpy.data.filepath
     parent = Path(saved).parent if saved else documents_folder() / _OF_ALL_RUNS

@@ -52,12 +52,12 @@ def language_of_blender(locale: str) -> str:
 
 
 def shown_language(settings: bpy.types.PropertyGroup) -> str:
-    """Return the language that reports of a scene are made in: that of the scenario, or else that of Blender."""
+    """Return the language that reports of a scene are made in: the scenario's, or else Blender's."""
     return _asked(settings, "language") or language_of_blender(bpy.app.translations.locale or "")
 
 
 def shown_units(settings: bpy.types.PropertyGroup) -> str:
-    """Return the units that reports of a scene are made in: those of the scenario, or else those of the scene."""
+    """Return the units that reports of a scene are made in: the scenario's, or else the scene's."""
     of_scene = settings.id_data.unit_settings.system
     return _asked(settings, "units") or (UnitSystem.IMPERIAL if of_scene == "IMPERIAL" else UnitSystem.METRIC).value
 
@@ -357,7 +357,7 @@ def go_to(context: bpy.types.Context, name: str, frame: int) -> None:
 
 
 def can_report(scene: bpy.types.Scene) -> bool:
-    """Return whether there may be results to make a report of: those of the scene's run, or of a folder."""
+    """Return whether there may be results to make a report of: from the scene's run, or a folder."""
     return bool(scene.bda.output_directory) or has_run(scene)
 
 
@@ -373,7 +373,7 @@ def report_of(scene: bpy.types.Scene) -> Path | None:
 
 
 def folder_to_report(scene: bpy.types.Scene) -> Path:
-    """Return the folder whose run a report is of: the chosen one, or else that of the scene's run."""
+    """Return the folder whose run a report is of: the chosen one, or else the scene's run's."""
     chosen = scene.bda.output_directory
     return absolute(chosen) if chosen else folder_of_run(scene)
 

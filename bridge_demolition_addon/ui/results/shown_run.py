@@ -1,6 +1,6 @@
 """The run whose results the panels show: the last recording, or the run that an opened file was saved with.
 
-Blender forgets the frames that it played with many a change, and would show the bridge as it was built beside a pile.
+Blender forgets the frames that it played with many a change, and would show the bridge as it was built next to a pile.
 """
 
 from __future__ import annotations
@@ -237,7 +237,7 @@ def _is_wanted(scene: bpy.types.Scene) -> bool:
 
 
 def follow() -> None:
-    """Place the bodies of all scenes, or leave them to Blender, as their settings are now."""
+    """Place the bodies of every scene, or leave them to Blender, as their settings are now."""
     for scene in bpy.data.scenes:
         shown = shown_results(scene)
         if shown.stays_placed == _is_wanted(scene):

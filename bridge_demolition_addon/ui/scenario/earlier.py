@@ -96,7 +96,7 @@ def _is_set(group: bpy.types.PropertyGroup, table_class: type[Table]) -> bool:
 
 
 def _set_missing(group: bpy.types.PropertyGroup, table_class: type[Table], defaults: Table | None) -> None:
-    """Set all values that were never set to those of a table, or to those of its class without a table."""
+    """Set all values that were never set to a table's, or to its class's without a table."""
     for item in shown_keys(table_class):
         value = default_value(item, defaults)
         if is_optional(item) and not group.is_property_set(USE + item.name):
@@ -148,7 +148,7 @@ def _built(settings: bpy.types.PropertyGroup) -> Scenario | None:
 def _bodies(
     group: bpy.types.PropertyGroup, built: Scenario | None
 ) -> Iterator[tuple[bpy.types.PropertyGroup, BodyInContact | None, type[BodyInContact]]]:
-    """Yield the groups of all bodies, with what was built of each and its class."""
+    """Yield the groups of the bodies, with what was built of each and its class."""
     levels, hammers = (built.ground.surfaces, built.jackhammers) if built else ((), ())
     yield group.shards, built and built.shards, ShardSettings
     yield group.ground, built and built.ground, Ground

@@ -147,7 +147,7 @@ class BDA_OT_does_it_stand(Action, bpy.types.Operator):
 
 
 def draws_verdict(scene: bpy.types.Scene) -> bool:
-    """Return whether there is a bridge of which a verdict can be: all that was built is still there."""
+    """Return whether there is a bridge to give a verdict on: all that was built is still there."""
     return bool(scene.bda.built_scenario) and has_all_bodies(scene)
 
 

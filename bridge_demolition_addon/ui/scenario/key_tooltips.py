@@ -1,6 +1,6 @@
 """Tooltips of the keys of a scenario: what a key means, a typical value, its name in a file and what it takes.
 
-Names are those of a scenario; a key that several tables share stands here once, without its table.
+Names are a scenario's; a key that several tables share stands here once, without its table.
 """
 
 from __future__ import annotations

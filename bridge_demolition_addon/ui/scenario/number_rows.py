@@ -28,7 +28,7 @@ _DECIMALS = 3
 def numbers_in_row(item: Field) -> int:
     """Return how many numbers a row of a key's list has; 0 for a key without rows.
 
-    Numbers without a unit have none: those of a position on a map have more digits than Blender's single precision.
+    Numbers without a unit have none: a position on a map has more digits than Blender's single precision.
     """
     if not holds_many(item) or get_args(value_type(item))[-1] is not Ellipsis:
         return 0

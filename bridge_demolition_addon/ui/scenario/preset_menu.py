@@ -232,7 +232,7 @@ def unregister() -> None:
 
 
 def loaded_pictures() -> bpy.utils.previews.ImagePreviewCollection:
-    """Pictures of all presets, which Blender loads once."""
+    """Pictures of the presets, which Blender loads once."""
     if not _pictures:
         _pictures.append(bpy.utils.previews.new())
         for name in preset_files():

@@ -1,6 +1,6 @@
 """Blender properties for all keys of a scenario, made from the dataclasses that check them.
 
-There is one property group for each table, nested as the tables are. An optional key or table has a check box beside
+There is one property group for each table, nested as the tables are. An optional key or table has a check box next to
 it, ``use_`` and its name; a list of tables is a collection with the index of its active one, its name and ``_index``.
 """
 
@@ -180,7 +180,7 @@ def _default_ensembles() -> tuple[EnsembleSettings, ...]:
 
 
 def register() -> None:
-    """Register all groups with Blender: those of a whole scenario, study, search and optimisation last."""
+    """Register all groups with Blender: whole scenario, study, search and optimisation last."""
     for group in _groups():
         bpy.utils.register_class(group)
 

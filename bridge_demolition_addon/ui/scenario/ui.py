@@ -285,7 +285,7 @@ def rows_of(table_class: type[Table]) -> tuple[Row, ...]:
 
 
 def table_panels() -> tuple[type[bpy.types.Panel], ...]:
-    """Return the panels of all tables; one for a table that has no place among the panels stands with rare actions."""
+    """Return the tables' panels; one for a table that has no place among the panels stands with rare actions."""
     panels: list[type[bpy.types.Panel]] = []
     for item in shown_tables(Scenario):
         if key_name(Scenario, item) in _ELSEWHERE:
