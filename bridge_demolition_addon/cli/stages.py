@@ -74,7 +74,7 @@ def execute(arguments: argparse.Namespace) -> None:
 
             def keep(done: Sequence[Stage]) -> None:
                 with writing(output):
-                    if len(done) == 1:  # those of another time would stand beside them, if this is stopped
+                    if len(done) == 1:  # tables of another time would stand next to them, if this is stopped
                         for path in paths:
                             path.unlink(missing_ok=True)
                     rows = write_stages(output, done, bridge)

@@ -36,9 +36,9 @@ class ContourSettings:
     """What bodies are coloured by, and how. Ranges are in N, Pa or m."""
 
     quantity: ContourQuantity = ContourQuantity.RESULTANT
-    peak: bool = False  # the largest value up to a frame, not that of the frame
-    whole_run: bool = False  # the peak of all frames, whichever is shown: where the bridge will be loaded most
-    range_kind: RangeKind = RangeKind.RUN  # of all frames so far, of each frame, or fixed from low to high
+    peak: bool = False  # the largest value up to a frame, not the frame's
+    whole_run: bool = False  # the peak over the run, whichever frame is shown: where the bridge will be loaded most
+    range_kind: RangeKind = RangeKind.RUN  # over the frames so far, of each frame, or fixed from low to high
     low: float = 1e3
     high: float = 1e6
     logarithmic: bool = True  # equal steps of colour are equal ratios, without signs
@@ -252,7 +252,7 @@ class ContourSeries:
     def _scale(self, row: int, settings: ContourSettings) -> ContourScale:
         rows = row if settings.range_kind == RangeKind.FRAME else None
         is_fixed = settings.range_kind == RangeKind.FIXED
-        percentile = 100.0 if is_fixed else settings.percentile  # a percentile of all frames takes long
+        percentile = 100.0 if is_fixed else settings.percentile  # a percentile over a whole run takes long
         return settings.scale(*self.extent(rows, settings.quantity, peak=settings.peak, percentile=percentile))
 
     def _fill(self, quantity: ContourQuantity, peak: bool) -> None:

@@ -61,7 +61,7 @@ def write_bridge(bridge: ImportedBridge, folder: Path) -> list[str]:
     """Write an imported bridge, whole or not at all, and return the lines of its report."""
     check_new(folder)
     with writing(folder), tempfile.TemporaryDirectory(dir=_existing(folder), prefix=".bda-import-") as name:
-        # One folder deeper: that of `tempfile` is for its owner alone, and is deleted by it.
+        # One folder deeper: `tempfile`'s is for its owner alone, and is deleted by it.
         whole = Path(name) / "bridge"
         (whole / MESH_FOLDER).mkdir(parents=True)
         for file, mesh in bridge.meshes.items():

@@ -55,7 +55,7 @@ class _Gap:
     def filled(self, into_m: float) -> Manifold:
         """Return the solid of the space, so far into the girder and the deck."""
         nodes = self.plate.vertices
-        # Where the plan goes beyond the flange, the face below is that of another one.
+        # Where the plan goes beyond the flange, the face below belongs to another one.
         low = np.maximum(self.top - into_m, self.underside - HIGHEST_M)
         high = np.maximum(self.underside, self.top) + into_m
         heights = low + nodes[:, 2] * (high - low)
@@ -164,7 +164,7 @@ def _top_in_plan(girder: TriangleMesh, upper: Surface, lower: Surface) -> CrossS
     over = -lower.heights_at(middles[:, :2]) - middles[:, 2]
     is_top = (areas > 0.0) & (normals[:, 2] > _LOOKS_UP)
     is_top &= np.abs(upper.heights_at(middles[:, :2]) - middles[:, 2]) <= _TOUCHING_M
-    is_top &= ~(over >= HIGHEST_M)  # also where the middle of a long triangle lies beside the deck
+    is_top &= ~(over >= HIGHEST_M)  # also where the middle of a long triangle lies off the deck
     rings = corners[is_top][:, :, :2]
     rings = rings[np.abs(signed_area(rings)) > 1e-9]
     plan = CrossSection([ring if signed_area(ring) > 0.0 else ring[::-1] for ring in rings], FillRule.Positive)

@@ -107,7 +107,7 @@ def _by_map(source: IfcSource, placement: Placement) -> tuple[Site | None, str]:
         return None, f"its map conversion is to {name or 'no reference system'}, of which only UTM zones are known"
     map_unit_m = _map_unit(source)
     turn = math.atan2(conversion.xao, conversion.xaa)
-    # The scale goes from the file's unit to that of the map: 0.001 from mm to m. Its difference from 1 is the grid's.
+    # The scale goes from the file's unit to the map's: 0.001 from mm to m. Its difference from 1 is the grid's.
     factor = conversion.scale * map_unit_m / source.unit_m
     along = np.array((math.cos(placement.angle_rad), math.sin(placement.angle_rad)))
     points = []

@@ -132,7 +132,7 @@ def _shape(entity: Any, settings: Any, scale: float) -> TriangleMesh | None:
     """
     try:
         shape = library("geom").create_shape(settings, entity)
-    except RuntimeError:  # its text is that of the entity, without a reason
+    except RuntimeError:  # its text is the entity, without a reason
         return None
     triangles = np.array(shape.geometry.faces, dtype=np.int64).reshape(-1, 3)
     if not len(triangles):

@@ -275,7 +275,7 @@ def _pad(member: Member, below: Member) -> Pad | None:
     column = box((*size.tolist(), top - float(low[2])), (*middle.tolist(), (top + float(low[2])) / 2.0))
     lowered = TriangleMesh(below.solid.vertices - (0.0, 0.0, SEAT_M), below.solid.triangles)
     pieces = to_manifold(cut_by(column, [member.solid, lowered])).decompose()
-    # What is left above the member, or beside its web, is no pad.
+    # What is left above the member, or next to its web, is no pad.
     under = [piece for piece in pieces if piece.bounding_box()[2] < lowest + SEAT_M and piece.volume() > 0.0]
     if not under:
         return None

@@ -322,7 +322,7 @@ def _written_in(
             )
             files.append(path)
         else:
-            path.unlink(missing_ok=True)  # that of an earlier report would say something else
+            path.unlink(missing_ok=True)  # an earlier report's would say something else
     if extras.word:
         files += _word_files((document, *pages), drawn, target, progress, extras, translation)
     return [*files, *write_tables(tables, own_folder(target / TABLE_FOLDER)), *report.files]

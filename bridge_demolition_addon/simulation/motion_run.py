@@ -32,7 +32,7 @@ def motion_run(
     existing folder during the block. `after_frame` looks on after each frame; what it raises ends the run.
     """
     with interrupted_afterwards():
-        bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)  # add-ons stay, one of which this may be
+        bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)  # add-ons stay: this may be one
     scene = bpy.context.scene
     build_demolition(scene, scenario, model)
     context = RunContext.of(scene, scenario.title, scenario)

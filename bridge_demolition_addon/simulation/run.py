@@ -163,7 +163,7 @@ def _laps() -> Callable[[], float]:
 def _save_scene(scene: bpy.types.Scene, folder: Path) -> None:
     keep_played_frames(scene)
     path = folder.resolve() / BLEND_FILE
-    try:  # Blender itself writes beside it and renames
+    try:  # Blender itself writes next to it and renames
         with without_noise():
             bpy.ops.wm.save_as_mainfile(filepath=str(path), check_existing=False, compress=True)
     except RuntimeError as error:

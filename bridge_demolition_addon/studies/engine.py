@@ -22,7 +22,7 @@ _Item = TypeVar("_Item")
 class Task:
     """A run to be made."""
 
-    cache_key: str  # digest of all that its result depends on
+    cache_key: str  # digest of what its result depends on
     request: Mapping[str, Any]  # to its program, ready for JSON
     folder: Path  # for its files once it has ended
 

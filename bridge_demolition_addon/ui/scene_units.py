@@ -15,7 +15,7 @@ _N_PER_KN = 1000.0
 
 
 def units_of_texts() -> UnitSystem:
-    """Return the system of units that texts have now: the window's scene has it."""
+    """Return the system of units of texts now: the window's scene decides."""
     return UnitSystem.IMPERIAL if bpy.context.scene.unit_settings.system == "IMPERIAL" else UnitSystem.METRIC
 
 

@@ -57,7 +57,7 @@ class Fragments:
     sizes_m: FloatArray  # (n,), cube roots of their volumes
     positions_m: FloatArray  # (n, 3)
     velocities_m_s: FloatArray  # (n, 3)
-    density_kg_m3: float | FloatArray  # of all, or of each (n,)
+    density_kg_m3: float | FloatArray  # common, or of each (n,)
 
     def of(self, chosen: BoolArray) -> Fragments:
         """Return those that are chosen (n,)."""

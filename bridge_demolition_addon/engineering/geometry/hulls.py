@@ -37,9 +37,9 @@ class ConvexHulls:
     areas: FloatArray  # (f,), m²
     face_vectors: FloatArray  # (3, f), normals times areas, m²
     offsets: FloatArray  # (f,), distances of the faces from the body's centre of mass along their normals, m
-    starts: IntArray  # (n + 1,), first face of each body, and the number of all
+    starts: IntArray  # (n + 1,), first face of each body, and the number of faces
     vertices: FloatArray  # (v, 3), from the bodies' centres of mass, m
-    vertex_starts: IntArray  # (n + 1,), first vertex of each body, and the number of all
+    vertex_starts: IntArray  # (n + 1,), first vertex of each body, and the number of vertices
 
     def __len__(self) -> int:
         return len(self.starts) - 1

@@ -211,9 +211,9 @@ def _followed(corners: FloatArray, line: FloatArray) -> OwnAxes:
     cuts = [_cut(corners, point, way) for _, point, way in inner]
     width = float(np.median([np.ptp(cut[..., 0]) for cut in cuts if len(cut)]))
     near = [cut[(np.abs(cut[..., 0]) <= 0.75 * width).any(axis=1)] for cut in cuts]
-    if not any(len(cut) for cut in near):  # all of it lies beside the line
+    if not any(len(cut) for cut in near):  # all of it lies off the line
         near = cuts
-    # At a gap in a member, and where it lies beside the line, there is no section.
+    # At a gap in a member, and where it lies off the line, there is no section.
     met = [row for row, cut in enumerate(near) if len(cut)]
     if len(line) > 2:
         line = line[[0, *(row + 1 for row in met), -1]]
@@ -259,7 +259,7 @@ def _surfaces(section: FloatArray, across: FloatArray) -> tuple[float, float, Fl
     """Return height and slope of the underside of a section at its middle, and its top (a,), at points across it."""
     heights = [_heights_at(section, position) for position in across]
     crossed = np.array([len(found) > 0 for found in heights])
-    if not crossed.any():  # what is cut here is narrower than usual, and beside the line
+    if not crossed.any():  # what is cut here is narrower than usual, and off the line
         low, high = float(section[..., 1].min()), float(section[..., 1].max())
         return low, 0.0, np.full(len(across), high)
     at = across[crossed]

@@ -23,7 +23,7 @@ class BearingPads:
     """
 
     rows: IntArray  # (c,), connections
-    starts: IntArray  # (b,), where those of each bearing begin
+    starts: IntArray  # (b,), where each bearing's begin
     bodies: IntArray  # (2, c), above and below
     anchors_m: FloatArray  # (2, c, 3), from the centres of these to the middle of what carries
     levers_m: FloatArray  # (c, 3), from the middle of the bearing's axis to there, in the body above

@@ -107,7 +107,7 @@ class FrameLoads:
     # (n,), largest part of their rupture strain that bars across cracks of the body used; None where no bars are known
     body_bar_use: FloatArray | None = None
     # (m,), as the frame ends: BARS_HOLD where bars hold a connection that has cracked, BARS_YIELDED where they have
-    # yielded, 0 of all others; None of runs that did not record it
+    # yielded, 0 of others; None of runs that did not record it
     connection_bars: FloatArray | None = None
 
     def unknown(self) -> FrameLoads:

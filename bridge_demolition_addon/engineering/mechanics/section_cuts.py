@@ -89,7 +89,7 @@ class SectionCuts:
     """Two cuts for each of m connections, through its first and through its second shard."""
 
     connected: ConnectedFaces
-    starts: IntArray  # (2 m + 1,), first face of each cut, first all cuts through first shards; last the number of all
+    starts: IntArray  # (2 m + 1,), first face of each cut, first all cuts through first shards; last the count of faces
     faces: IntArray  # (e,), connections whose faces are in a cut
     signs: FloatArray  # (e,), 1 where the load of that connection's first body counts, -1 where its opposite does
     cosines: FloatArray  # (e,), between the normals of a face and of its cut
@@ -101,7 +101,7 @@ class SectionCuts:
         `is_shard` (n,): bodies with faces all around. Through any other, such as the ground, a cut has one face only.
         """
         count = len(connected.pairs)
-        # A half is a connection as one of its bodies sees it: first those of the first bodies, then of the second.
+        # A half is a connection as one of its bodies sees it: first the first bodies' halves, then the second bodies'.
         body = connected.pairs.T.ravel()
         outwards = np.concatenate((connected.normals, -connected.normals))
         order = np.argsort(body, kind="stable")

@@ -82,7 +82,7 @@ class FrameWork(Generic[_Energy]):
     """Work in one frame, J. The solver's energy is given by cause, and in `made_j` by the body that got it."""
 
     gravity_j: _Energy
-    loads_j: _Energy  # of blast and of all else that pushes bodies from outside
+    loads_j: _Energy  # of blast and whatever else pushes bodies from outside
     tools_j: _Energy  # of bodies that move as animation says, such as a ball that is lifted
     damping_j: _Energy  # energy of translation taken away by Blender's damping
     dissipated_j: _Energy  # taken away between bodies: by impacts, friction, and connections that yield

@@ -48,7 +48,7 @@ class MovingLoad:
     offsets_m: tuple[float, ...] = ()
     uniform_n_m: float = 0.0
     hogging_only: bool = False  # counts for moments over supports and reactions alone
-    clear_m: float = 0.0  # least distance of all axles from the ends; with 0 some may be off the beam
+    clear_m: float = 0.0  # least distance of any axle from the ends; with 0 some may be off the beam
 
 
 def influence_lines(supports_m: Sequence[float], begin_m: float, end_m: float) -> InfluenceLines:
@@ -69,7 +69,7 @@ def influence_lines(supports_m: Sequence[float], begin_m: float, end_m: float) -
     loads[2 * np.arange(count), np.arange(count)] = -1.0
     moved = _solved(banded, loads).reshape(count, 2, count)
     moments, shears = _section_forces(lengths, moved)
-    # What a support carries follows from the shears beside it: the penalty's own force has fewer digits.
+    # What a support carries follows from the shears on both sides of it: the penalty's own force has fewer digits.
     beside = np.concatenate((np.zeros((1, count)), shears, np.zeros((1, count))))
     reactions = beside[supports + 1] - beside[supports] + np.eye(count)[supports]
     return InfluenceLines(points, moments, shears, reactions)

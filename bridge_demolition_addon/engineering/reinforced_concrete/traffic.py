@@ -28,10 +28,10 @@ class Traffic:
     loads: tuple[MovingLoad, ...]  # of a lane with factors of 1
     axle_factors: tuple[float, ...]  # of each lane, heaviest first
     uniform_factors: tuple[float, ...]
-    rest_n_m2: float  # on the carriageway beside the lanes
+    rest_n_m2: float  # on the carriageway outside the lanes
     wheel_distance_m: float  # across a vehicle
     edge_m: float  # least distance of a wheel from the edge of the carriageway
-    presence: tuple[float, ...] = ()  # factor on all lanes if so many are loaded; empty for 1
+    presence: tuple[float, ...] = ()  # factor on all lanes by the number of loaded ones; empty for 1
 
     @property
     def lanes(self) -> int:

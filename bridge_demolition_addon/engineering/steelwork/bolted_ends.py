@@ -199,7 +199,7 @@ class BoltedEnd:
         return np.minimum(*plates)
 
     def _together_n(self, bearing_n: FloatArray) -> float:
-        """Resistance of all bolts: the sum of bearing where none is sheared before it, else as many times the least."""
+        """Resistance of the bolts: the sum in bearing where none shears first, else their number times the least."""
         if self.bolt_n >= float(bearing_n.max()):
             return math.fsum(bearing_n.ravel().tolist())
         return self.bolts.count * min(self.bolt_n, float(bearing_n.min()))

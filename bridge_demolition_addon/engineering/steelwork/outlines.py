@@ -28,7 +28,7 @@ class PlaneShape:
     """What follows from an outline whose centre is the origin."""
 
     area_m2: float
-    second_moments_m4: FloatArray  # (2, 2), ∫ z² dA and ∫ y² dA on the diagonal, -∫ y z dA beside it
+    second_moments_m4: FloatArray  # (2, 2), ∫ z² dA and ∫ y² dA on the diagonal, -∫ y z dA off it
     elastic_moduli_m3: FloatArray  # (2,), about y and z, by the edge that is farther away
     plastic_moduli_m3: FloatArray  # (2,), about axes along y and z
 

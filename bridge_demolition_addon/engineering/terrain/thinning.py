@@ -47,7 +47,7 @@ def thinned(grid: Grid, tolerance_m: float, kept: BoolArray, longest_m: float) -
     limit = tolerance_m
     for _ in range(_MOST_ROUNDS):
         needed = _needed(grid, limit, kept, longest_m)
-        # Errors of all sizes of triangles add up: they are measured, and the limit made stricter.
+        # Errors of every size of triangles add up: they are measured, and the limit made stricter.
         if np.abs(_interpolated(grid.heights, needed) - grid.heights).max() <= tolerance_m:
             return _triangles(grid, needed)
         limit *= _STRICTER

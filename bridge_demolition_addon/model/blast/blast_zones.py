@@ -31,7 +31,7 @@ class DrilledExplosive:
 
     name: str
     density_kg_m3: float  # as it lies in the hole
-    relative_strength: float  # relative weight strength: its energy over that of ANFO, which has 100
+    relative_strength: float  # relative weight strength: its energy over ANFO's, which has 100
     source: str
 
 

@@ -44,10 +44,10 @@ class PlaceLoads:
     distance_m: float  # to the nearest charge
     arrival_s: float  # of the first wave, from the start of the blasting
     times_s: np.ndarray  # (t,), from the start of the blasting
-    pressures_pa: np.ndarray  # (t,), incident overpressures of all charges added up
+    pressures_pa: np.ndarray  # (t,), incident overpressures of the charges added up
     peak_pa: float
-    impulse_pa_s: float  # per area, of the positive phases of all charges
-    peak_velocity_m_s: float  # of the ground: the largest of all groups of charges that detonate together
+    impulse_pa_s: float  # per area, of the charges' positive phases
+    peak_velocity_m_s: float  # of the ground: the largest of any group of charges that detonates together
 
 
 def loads_at(

@@ -92,7 +92,7 @@ def percentiles_by_mass(values: np.ndarray, masses_kg: np.ndarray, percents: Seq
         return np.full(len(percents), np.nan)
     order = np.argsort(values, kind="stable")
     shares = np.cumsum(masses_kg[order]) / masses_kg.sum()
-    rounding = 1e-12  # a sum of shares ends a little beside 1
+    rounding = 1e-12  # a sum of shares ends a little off 1
     rows = np.searchsorted(shares, np.asarray(percents) / 100.0 - rounding)
     return values[order][np.minimum(rows, len(values) - 1)]
 
@@ -196,7 +196,7 @@ def debris_on_surfaces(results: Results, debris: Debris) -> tuple[SurfaceDebris,
     positions = results.frames.positions_m[-1, debris.bodies]
     on_surfaces = []
     for surface in debris.ground.surfaces:
-        level = surface.surface.heights_at(positions[:, :2])  # nan beside it
+        level = surface.surface.heights_at(positions[:, :2])  # nan outside it
         # Water lies below the ground beyond its shores.
         on_it = (positions[:, 2] >= level - MOVED_M) & (level >= debris.ground.heights_at(positions[:, :2]))
         mass = float(debris.masses_kg[on_it].sum())
@@ -211,7 +211,7 @@ def bodies_under_ground(results: Results) -> np.ndarray:
     inventory, ground = results.inventory, results.ground()
     bodies = np.concatenate([inventory.of_kind("shard"), inventory.of_kind("ball")])
     positions = results.frames.positions_m[-1, bodies]
-    bodies = bodies[positions[:, 2] < ground.heights_at(positions[:, :2])]  # of all others a part is above it
+    bodies = bodies[positions[:, 2] < ground.heights_at(positions[:, :2])]  # of the others a part is above it
     under = [
         (corners[:, 2] < ground.heights_at(corners[:, :2]) - _BELOW_M).all()
         for corners in corners_at(results, -1, bodies)

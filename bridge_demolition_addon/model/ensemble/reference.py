@@ -39,7 +39,7 @@ _MOST_MEANT = 6
 class _Entry:
     name: str  # dotted, such as ``ball.mass_kg``
     file: str
-    table_class: type[Table]  # the table itself, or that of the key
+    table_class: type[Table]  # the table itself, or the key's
     key: Field[Any] | None = None  # None for a table
     many: bool = False
 

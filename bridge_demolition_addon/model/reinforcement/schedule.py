@@ -112,14 +112,14 @@ class ScheduledLinks:
 
     members: tuple[str, ...]
     kind: str
-    link_area_mm2_per_m: float  # A_sw / s: of all legs in a section, by length along the member
+    link_area_mm2_per_m: float  # A_sw / s: of the legs in a section together, by length along the member
     required_mm2_per_m: float
     reason: str
     legs: int
     diameter_m: float  # 0 where only a ratio is given
     spacing_m: float
     width_m: float  # b_w
-    loop_m: float  # length of all bars of one set of links
+    loop_m: float  # total length of bars of one set of links
     length_m: float  # of one member
     shear_n: float = 0.0
     concrete_n: float = 0.0  # V_Rd,c

@@ -189,7 +189,7 @@ def _pier(basis: DesignBasis, number: int, load: SupportLoad) -> Rows:
         effects = _cap_effects(basis, cap, caps, piers, load)
         permanent_n = float(effects.permanent_reactions_n.max())
         yield from _cap_bars(basis, cap, caps, piers, effects)
-    traffic_n = load.traffic_n * min(1.0, 2.0 / len(columns))  # it may stand beside the axis of the road
+    traffic_n = load.traffic_n * min(1.0, 2.0 / len(columns))  # it may stand off the axis of the road
     axial = [
         PERMANENT_FACTOR * (permanent_n + basis.weight_n(column)) + VARIABLE_FACTOR * traffic_n for column in columns
     ]

@@ -54,7 +54,7 @@ class Answer:
     search: Search
     values: np.ndarray  # (n,), of the runs
     trials: LevelOutcomes  # the same as levels, and which of the runs met all criteria
-    median: float | None  # where half of all runs meet the criteria, most likely; None if unknown
+    median: float | None  # where half of the runs meet the criteria, most likely; None if unknown
     spread: float | None
     value: float | None  # where as many as were asked for meet them, most likely; None if unknown
     median_limits: tuple[float, float]  # each with the confidence of the search; infinite where unknown

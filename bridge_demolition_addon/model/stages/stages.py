@@ -76,7 +76,7 @@ class Criticality:
 
     member: str
     falls_kg: float  # mass that comes down then, without the member itself
-    share: float  # part of the mass of all that was held
+    share: float  # part of the mass that was held
     used: float  # highest utilisation of a connection of the others, before any breaks; nan where none is held
     most_used: int | None  # that connection
 

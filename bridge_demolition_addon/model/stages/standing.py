@@ -50,7 +50,7 @@ class Standing:
     """A bridge at rest."""
 
     held: np.ndarray  # (n,), shards that connections to a support hold
-    loads: ConnectionLoads  # of all m connections, in the axes of the world; 0 for those that are gone
+    loads: ConnectionLoads  # of the m connections, in the axes of the world; 0 for broken ones
     alone: np.ndarray  # (m,), utilisation of each connection by itself; nan for those that are gone
     together: np.ndarray  # (m,), utilisation of the sections of their members; nan as above
     sag_m: float  # largest downward displacement of a shard, below 0 where a larger one is upwards

@@ -119,7 +119,7 @@ class CrackedBridge:
         self._has_tendons = tendons is not None
         self._carried: float | None = None  # the load factor of the last loads, with tendons
         self._held_at_first = self._structure.held.copy()
-        self._judged = np.zeros((6, len(connections)))  # loads of which some were found to overload connections
+        self._judged = np.zeros((6, len(connections)))  # loads, some of them found to overload connections
 
     def copy(self) -> CrackedBridge:
         """Return one in the same state, that goes on by itself."""

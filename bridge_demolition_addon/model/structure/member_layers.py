@@ -45,7 +45,7 @@ class LayersOfMember:
     levels_m: tuple[float, ...]
     widths_m: tuple[float, ...]
     between_m: tuple[float, float] = (-math.inf, math.inf)  # along the bars: part of the member with these layers
-    own: OwnAxes | RoadLine | None = None  # axes of the member that layers count in; None for those of the bridge
+    own: OwnAxes | RoadLine | None = None  # axes of the member that layers count in; None for the bridge's
 
     @property
     def axes(self) -> tuple[int, int, int]:

@@ -60,7 +60,7 @@ class _CastTBeams:
 
     rows: ConnectionRows
     centres_m: FloatArray  # (n + 1, 3), without skew
-    line: IntArray  # (n + 1,), of which T-beam each is, -1 of none
+    line: IntArray  # (n + 1,), T-beam of each, -1 without one
     is_web: BoolArray  # (n + 1,)
     is_piece: BoolArray  # (n + 1,), whether it is all of its girder or slab in a piece of a T-beam
     points_m: FloatArray  # (m, 3), middles of faces, without skew

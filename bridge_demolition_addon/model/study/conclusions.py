@@ -51,7 +51,7 @@ class FragmentLimits:
     """Upper tolerance limits of how far fragments fly, each by itself; infinite where there are too few runs."""
 
     runs: int
-    quantile: float  # asked beforehand: part of all runs that each limit is for
+    quantile: float  # asked beforehand: part of the runs that each limit is for
     confidence: float  # asked beforehand
     rank: int  # asked beforehand: which of the largest distances of the runs they are
     achieved_confidence: float
@@ -125,14 +125,14 @@ class DebrisLimit:
 
     runs: int
     unfinished: int  # runs that did not finish
-    quantile: float  # asked beforehand: part of all runs that the limit is for
+    quantile: float  # asked beforehand: part of the runs that the limit is for
     confidence: float  # asked beforehand: its confidence
     rank: int  # asked beforehand: which of the largest distances it is
     runs_needed: int  # least number of runs for a limit
     limit_m: float  # infinite where there are too few runs, or too many that did not finish
     exceedances: int  # runs beyond the limit, unfinished ones included
     achieved_confidence: float  # that the quantile stays within the limit
-    coverage: float  # part of all runs that stays within the limit with the confidence asked
+    coverage: float  # part of the runs that stays within the limit with the confidence asked
     repeat_above_m: float  # a study of as many other runs has its limit above this with the confidence; -inf if unknown
     repeat_below_m: float  # and not above this; inf if unknown
     repeat_exceedance: float  # probability that its limit is larger than every distance of these runs
@@ -159,7 +159,7 @@ class DoubtfulThrows:
 
     throws: int
     runs: int  # with such throws
-    judged: int  # runs of which it is known
+    judged: int  # runs where it is known
     limit_m: float  # of the debris distance without them; infinite as the limit with them
 
 
@@ -179,7 +179,7 @@ class Proportion:
 class SimultaneousLimits:
     """Limits of several outputs that hold together, after Guba, Makai and Pál."""
 
-    quantile: float  # part of all runs that stays below all limits at once
+    quantile: float  # part of the runs that stays below all limits at once
     confidence: float  # of that
     limits: dict[str, float]  # by name of the output
     ranks: dict[str, int]  # which of its largest values each limit is
@@ -308,7 +308,7 @@ def simultaneous_limits(
     support = most_support(runs, quantile, confidence) if runs else 0
     if support < max(len(outputs), 1):
         return None
-    # Together they may be set by so many runs; what does not divide evenly goes to the first.
+    # This many runs may set them together; what does not divide evenly goes to the first.
     share, rest = divmod(support, len(outputs))
     ranks = {name: share + (number < rest) for number, name in enumerate(outputs)}
     limits = {name: nth_largest(values, ranks[name]) for name, values in outputs.items()}

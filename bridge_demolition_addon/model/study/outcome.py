@@ -43,7 +43,7 @@ _NO_OUTLINES = np.zeros((0, 2), np.float32)
 class Outlines:
     """What is kept of a run on plan: closed outlines (k, 2), m; holes run clockwise."""
 
-    bridge: tuple[np.ndarray, ...]  # of all shards at first
+    bridge: tuple[np.ndarray, ...]  # of the shards at first
     resting: tuple[np.ndarray, ...]  # of the hazardous bodies that moved, at the end; those that overlap are not united
     swept: tuple[np.ndarray, ...]  # of these bodies at any time, united
 

@@ -50,7 +50,7 @@ class Column:
     significant: int = 0  # digits that a number with decimals has at least
     unit: str | None = None  # behind the heading; None for that at the end of the key
     is_reach: bool = False  # a distance that people keep or debris may reach, which is never rounded down
-    of_row: bool = False  # its numbers have the unit that the row gives, beside its name or in a column of units
+    of_row: bool = False  # its numbers have the unit that the row gives, next to its name or in a column of units
 
     @property
     def shown_unit(self) -> Unit:

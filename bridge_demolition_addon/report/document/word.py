@@ -120,7 +120,7 @@ class _Word:
                 case Photo():
                     self._photo(block)
                 case AnimatedModel():
-                    pass  # the paragraph beside it says where it is
+                    pass  # the paragraph next to it says where it is
 
     def _contents(self, document: Document) -> None:
         """Write the list of sections, which Word fills with page numbers once its fields are updated."""

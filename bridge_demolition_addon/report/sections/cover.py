@@ -177,7 +177,7 @@ def modelled(scenario: Scenario | None) -> Iterator[str]:
 
 
 def sources(scenario: Scenario | None) -> Iterator[tuple[str, str]]:
-    """Yield where the numbers of a scenario come from; where it is not known, limits of every model and of charges."""
+    """Yield where the numbers of a scenario come from; where it is not known, sources of every model and of charges."""
     yield from _SOURCES[:3]
     if scenario is None or scenario.ball:
         yield _OF_BALL

@@ -91,7 +91,7 @@ def create_connections(
     Its axes are the world's, so that a hinge rotates about the vertical. The constraints go into the collection of a
     rigid-body world, fastest while it is `off_scene`.
     """
-    # This name comes after those of the many shards, see `make_named`.
+    # This name comes after the names of the many shards, see `make_named`.
     names = numbered_names("Shard connection", len(connections), bpy.data.objects)
     objects = make_named(bpy.data.objects, names, lambda name, _: bpy.data.objects.new(name, None))
     sections = (connections.areas.tolist(), connections.normals.tolist(), second_moments_m4.reshape(-1, 4).tolist())

@@ -75,7 +75,7 @@ def _create_cable(world: bpy.types.RigidBodyWorld, ball: bpy.types.Object, setti
 
 
 def _create_hits(site: BuildSite, ball: bpy.types.Object, settings: Ball, surfaces_m: Sequence[float]) -> None:
-    """Animate all hits but the first; the surfaces have everyone's heights."""
+    """Animate all hits but the first; `surfaces_m` are the heights of the tops at every hit."""
     radius = settings.diameter_m / 2.0
     start = tuple(ball.location)
     release_frame = site.frame_after(settings.release_time_s)

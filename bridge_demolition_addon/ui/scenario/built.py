@@ -93,7 +93,7 @@ def panels_show(settings: bpy.types.PropertyGroup, scenario: Scenario) -> bool:
     """Return whether the panels show a scenario, in all that its results depend on."""
     try:
         shown = scenario_of(settings)
-    except DemolitionError:  # of which there are no results
+    except DemolitionError:  # faulty panels have no results
         return False
     return _without(shown, _BESIDE_RESULTS) == _without(scenario, _BESIDE_RESULTS)
 
