@@ -103,9 +103,10 @@ def _without_films(body: Manifold, smallest_m3: float) -> TriangleMesh:
 
 
 def _without_slivers(pieces: list[_Part], least_m3: float, most_excess_m3: float) -> list[_Part]:
-    """Sew each smaller piece to the neighbour with which it is most convex, or to none.
+    """Return pieces, each smaller one sewn to the neighbour with which it is most convex; none if one has none.
 
-    None either where they would have more in excess than `most_excess_m3`: a sliver takes no more away than it fills.
+    None either where the pieces would have more in excess than `most_excess_m3`: a sliver takes no more away than it
+    fills.
     """
     kept = [piece for piece in pieces if piece.volume_m3 >= least_m3]
     slivers = [piece for piece in pieces if piece.volume_m3 < least_m3]

@@ -56,7 +56,7 @@ class Pads(ConnectionSource):
         self._placed = _placed_bearings(self._tables, cut.members)
 
     def takes(self, pairs: np.ndarray) -> np.ndarray:
-        """Return which contacts (c,) are between two members with a bearing."""
+        """Return which pairs (k, 2) are of two members with a bearing."""
         members, found = self.cut.members_of(pairs), np.zeros(len(pairs), bool)
         for bearing in self._placed:
             for one, other in ((bearing.above, bearing.below), (bearing.below, bearing.above)):

@@ -85,7 +85,7 @@ class DecksOnGirders(ConnectionSource):
     """Contacts of decks with the girders below them."""
 
     def takes(self, pairs: np.ndarray) -> np.ndarray:
-        """Return which contacts (c,) are between a deck on girders and steel."""
+        """Return which pairs (k, 2) are of a deck on girders and of steel."""
         of_steel = np.array([*(member.steel is not None for member in self.cut.members), False], bool)
         first, second = self.cut.members_of(pairs).T
         return np.asarray((self._of_decks[first] & of_steel[second]) | (of_steel[first] & self._of_decks[second]))

@@ -24,7 +24,7 @@ class FaceConnections(ConnectionSource):
         self._others = others
 
     def takes(self, pairs: np.ndarray) -> np.ndarray:
-        """Return those between which a rule has no connection."""
+        """Return which pairs (k, 2) have no connection by their rule."""
         return np.array([False, *(rule.none for rule in self.cut.scenario.connections.between)])[self._rules_of(pairs)]
 
     def added(self, rows: ConnectionRows) -> ConnectionRows:

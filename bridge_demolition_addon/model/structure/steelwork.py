@@ -129,7 +129,7 @@ class SteelEnds(ConnectionSource):
     """Joints of bars, which are among the faces that shards share, and supports of nodes."""
 
     def takes(self, pairs: np.ndarray) -> np.ndarray:
-        """Return contacts of steel and ground, and of a node on a support, or a bar that ends there, and what holds it.
+        """Return pairs of steel and ground, and of a node on a support, or a bar that ends there, and what holds it.
 
         Where these touch, the support is all that is between them.
         """
