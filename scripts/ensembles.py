@@ -52,6 +52,7 @@ class Example:
 ENSEMBLES = {
     "i235_one_span": Example("study", "studies", "runs.csv", "study.json", ""),
     "drilled_two_spans": Example("study", "studies", "runs.csv", "study.json", ""),
+    "drilled_two_spans_longer_zones": Example("study", "studies", "runs.csv", "study.json", ""),
     "lillebruen": Example("study", "studies", "runs.csv", "study.json", ""),
     "overbridge": Example("study", "overbridge", "runs.csv", "study.json", "", "study.toml"),
     "lightest_ball": Example("search", "searches", "trials.csv", "search.json", "curve.png"),

@@ -37,7 +37,7 @@ PAGE, STATICS, RANGES = (
 )
 COLUMNS = ("example", "verdict", "reason", "utilisation", "member", "load_factor", "positions", "carried")
 STUDIED = {
-    "drilled_two_spans_longer_zones": "drilled_two_spans",
+    "drilled_two_spans_longer_zones": "drilled_two_spans_longer_zones",
     "lillebruen": "lillebruen",
     "overbridge": "overbridge",
 }

@@ -7,7 +7,7 @@ from support.checkout import ROOT
 
 pytestmark = pytest.mark.long
 
-LONG = {"drilled_two_spans", "lillebruen", "overbridge"}
+LONG = {"drilled_two_spans", "drilled_two_spans_longer_zones", "lillebruen", "overbridge"}
 """Those of which a run takes a minute or more: `scripts/remake --check` makes one again. Tests run the beginning of the
 first one's bridge, as of all examples."""
 
