@@ -103,7 +103,12 @@ def summarise(results: Results, gravity_m_s2: np.ndarray, contact_time_s: float 
 
 
 def _json(record: LargestThrow | Creeping | StillMoving | None) -> dict[str, Any] | None:
-    return asdict(record) if record else None
+    return asdict(record, dict_factory=_as_read) if record else None
+
+
+def _as_read(pairs: Iterable[tuple[str, Any]]) -> dict[str, Any]:
+    """Return a table as it is read from JSON, which knows lists alone."""
+    return {name: list(value) if isinstance(value, tuple) else value for name, value in pairs}
 
 
 def first_hit_s(impact: MomentOfRun | None, hits: Iterable[HitOfRun]) -> float | None:
