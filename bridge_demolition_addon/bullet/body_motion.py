@@ -7,14 +7,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..engineering.core.calls import call
-from ..engineering.core.structs import Addresses, Count, Doubles, NotFinite, Struct
+from ..engineering.core.structs import Addresses, Count, NotFinite, Struct
 from ..errors import LayoutError
 from .layout import ASLEEP, DISABLED, BodyLayout, Layout
 from .memory import write_vectors
 
 SYMMETRIC = 1e-9
 
-_WRONG_INERTIA = "the inertia of a body is not as expected"
+WRONG_INERTIA = "the inertia of a body is not as expected"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -40,6 +40,14 @@ class BodyMotion:
     inverse_inertia_components: np.ndarray
     load_components: np.ndarray
     asleep: np.ndarray
+    components: np.ndarray  # (34, n), all of it but that
+
+    @classmethod
+    def room_for(cls, count: int) -> BodyMotion:
+        """Return room for the motion of so many bodies."""
+        values, asleep = np.empty((34, count)), np.empty(count, bool)
+        rotations, inertias = values[:9].reshape(3, 3, -1), values[25:].reshape(3, 3, -1)
+        return cls(values[9:12], rotations, values[12:18], values[24], inertias, values[18:24], asleep, values)
 
 
 class BulletBodies(Struct):
@@ -75,33 +83,16 @@ class BodyMotionReader:
 
     def read(self) -> BodyMotion:
         """Return how all bodies move; a `NotFiniteError` names one whose motion or mass is no number."""
-        count = len(self._bodies)
-        values, asleep = np.empty((34, count)), np.empty(count, bool)
+        motion = BodyMotion.room_for(len(self._bodies))
+        self.read_into(motion)
+        return motion
+
+    def read_into(self, motion: BodyMotion) -> None:
+        """Read how all bodies move now into what `read` or `BodyMotion.room_for` returned."""
         try:
-            call("bda_read_motion", self._core, SYMMETRIC, values, asleep)
+            call("bda_read_motion", self._core, SYMMETRIC, motion.components, motion.asleep)
         except ValueError as error:
-            raise LayoutError(_WRONG_INERTIA) from error
-        rotations, inertias = values[:9].reshape(3, 3, -1), values[25:].reshape(3, 3, -1)
-        return BodyMotion(values[9:12], rotations, values[12:18], values[24], inertias, values[18:24], asleep)
-
-    def push(self, motion: BodyMotion, impulses: np.ndarray, substep_s: float) -> None:
-        """Give bodies that move freely impulses (6, n) in the coming sub-step, beside the loads of their motion."""
-        count = len(self._bodies)
-        masses = Doubles.checked("inverse masses", motion.inverse_masses, count)
-        loads = Doubles.checked("loads", motion.load_components, 6 * count)
-        impulses = Doubles.checked("impulses", np.ascontiguousarray(impulses), 6 * count)
-        call("bda_push", self._core, masses, loads, impulses, substep_s)
-
-    def turn_by_torques(self, times_s: np.ndarray) -> None:
-        """Change the angular velocities of bodies that are awake by what torques do in times (n,), and end the torques.
-
-        To be called before a sub-step: Bullet forgets torques after it. Where a time is infinite they stay.
-        """
-        times_s = Doubles.checked("times", times_s, len(self._bodies))
-        try:
-            call("bda_turn_by_torques", self._core, times_s, SYMMETRIC)
-        except ValueError as error:
-            raise LayoutError(_WRONG_INERTIA) from error
+            raise LayoutError(WRONG_INERTIA) from error
 
     def set_positions(
         self, rows: np.ndarray, position_components_m: np.ndarray, rotation_components: np.ndarray

@@ -13,12 +13,10 @@ from collections.abc import Sequence
 import bpy
 import numpy as np
 
-from ..engineering.core.calls import call
-from ..engineering.core.structs import Addresses, Count, Doubles, Flags, Indices, Struct, WrittenFlags
-from ..engineering.elasticity.cracks import ExpectedCracks
+from ..engineering.core.structs import Addresses, Count, Flags, Indices, Struct, WrittenFlags
 from ..errors import LayoutError
 from .layout import ALL_ROWS_SET, SPRING_CORRECTION, SPRING_TYPE, Layout, SpringLayout
-from .memory import gather_doubles, read, read_value
+from .memory import DOUBLES, INTEGERS, gather_doubles, read, read_value
 
 _ROTATION = 1e-4
 """How far elements of two rotation matrices in single precision may differ."""
@@ -37,7 +35,8 @@ _FREE_FROM = 2.0
 _SIGNS = np.array([1.0, 1.0, 1.0, -1.0, -1.0, -1.0])
 """Bullet takes limits of rotations with the opposite sign."""
 
-_AS_THEY_ARE = np.ones(6)
+_FRAME = 8 * np.arange(15, dtype=np.uint64)
+"""Offsets of the numbers of a frame: three rows of its axes, each with one that is not used, and its position."""
 
 
 class BulletRows(Struct):
@@ -88,33 +87,25 @@ class ConstraintRows:
         self.held = self._limits == self._doubles(layout.spring.upper)
         self._resists = self.held.copy()
         self._starts = layout.spring.frame_a, layout.spring.frame_b
-        self._built = self.frame_components()  # by Blender
+        self._built = self._frames()  # by Blender
         self._moved = np.zeros(len(addresses), bool)
-        self._softness = Softness(
+        self.softness = Softness(
             softest=_SOFTEST, free_from=_FREE_FROM, flags=ALL_ROWS_SET, frame_a=self._starts[0], frame_b=self._starts[1]
         )
-        self._core = BulletRows.of(layout.spring, addresses, self.held, self._resists)
+        self.core = BulletRows.of(layout.spring, addresses, self.held, self._resists)
 
     def frame_components(self) -> tuple[tuple[np.ndarray, np.ndarray], ...]:
         """Return axes (3, 3, k) and positions (3, k) of the frames in Bullet's body A, and of those in its body B."""
-        frames = [gather_doubles(self._addresses + np.uint64(start), 15).T for start in self._starts]
+        frames = [values.T for values in self._frames()]
         return tuple((values[:12].reshape(3, 4, -1)[:, :3].copy(), values[12:].copy()) for values in frames)
 
-    def move_frames(self, rows: np.ndarray, axes: Sequence[np.ndarray], points_m: Sequence[np.ndarray]) -> None:
-        """Put the frames of existing constraints (r,) elsewhere in Bullet's bodies A and B; `restore` puts them back.
+    def _frames(self) -> list[np.ndarray]:
+        """Axes and positions (k, 15) of both frames, as they are in memory."""
+        return [gather_doubles(self._addresses + np.uint64(start), 15) for start in self._starts]
 
-        Axes (3, 3, r), as columns, and positions (3, r) are those in each of the two bodies.
-        """
+    def let_resist_as_cracks(self, rows: np.ndarray) -> None:
+        """Take note that the core has constraints (r,) resist as cracks do: `restore` undoes it."""
         self._moved[rows] = True
-        for start, of_body, points in zip(self._starts, axes, points_m, strict=True):
-            frames = _doubles("axes", of_body, 9 * len(rows)), _doubles("points", points, 3 * len(rows))
-            call("bda_put_frames", self._core, start, len(rows), _numbers(rows), *frames)
-
-    def resist_as(self, cracks: ExpectedCracks, rows: np.ndarray, exists: np.ndarray) -> None:
-        """Have constraints (r,), of those that exist (k,), resist as cracks do; `restore` undoes it."""
-        self._moved[rows] = True
-        exists = Flags.checked("exists", exists, len(self._addresses))
-        call("bda_put_cracks", self._core, cracks, self._softness, len(rows), _numbers(rows), exists)
 
     def soften(self, rows: np.ndarray, softness: np.ndarray) -> None:
         """Have all of an error of existing constraints (r,) corrected in a sub-step, with a softness (6, r).
@@ -128,28 +119,34 @@ class ConstraintRows:
     def restore(self, rows: np.ndarray) -> None:
         """Leave constraints (r,) as Blender made them."""
         moved = rows[self._moved[rows]]
-        axes, points_m = zip(*self._built, strict=True)
-        self.move_frames(moved, [of_body[..., moved] for of_body in axes], [points[:, moved] for points in points_m])
+        for start, frames in zip(self._starts, self._built, strict=True):
+            DOUBLES.write((self._addresses[moved] + np.uint64(start))[:, None] + _FRAME, frames[moved])
         self._resists[:, rows] = self.held[:, rows]
-        self._hold_at(rows, self._limits[:, rows], _AS_THEY_ARE)
+        self._hold_at(rows, self._limits[:, rows])
         self._write(rows, SPRING_CORRECTION, np.zeros((6, len(rows))), 0)
 
     def expect(self, rows: np.ndarray, deformations: np.ndarray) -> None:
         """Set how constraints (r,) will be deformed (6, r) at the end of the coming sub-step, if nothing else acts."""
-        self._hold_at(rows, deformations, _SIGNS)
+        self._hold_at(rows, deformations * _SIGNS[:, None])
 
-    def _hold_at(self, rows: np.ndarray, limits: np.ndarray, signs: np.ndarray) -> None:
-        """Write limits (6, r) times signs (6,)."""
-        limits = _doubles("limits", limits, 6 * len(rows))
-        call("bda_expect", self._core, len(rows), _numbers(rows), limits, signs)
+    def _hold_at(self, rows: np.ndarray, limits: np.ndarray) -> None:
+        """Write limits (6, r) of rows that are held, both alike: crossed ones leave a row free."""
+        held, resists, spring = self.held[:, rows], self._resists[:, rows], self._layout.spring
+        for offsets, free in ((spring.lower, 1.0), (spring.upper, -1.0)):
+            DOUBLES.write(self._fields(offsets, rows)[held], np.where(resists, limits, free)[held])
 
     def _write(self, rows: np.ndarray, correction: float, softness: np.ndarray, flags: int) -> None:
-        softness = _doubles("softness", softness, 6 * len(rows))
-        call("bda_soften", self._core, len(rows), _numbers(rows), correction, softness, flags)
+        spring = self._layout.spring
+        DOUBLES.write(self._fields(spring.correction, rows), correction)
+        DOUBLES.write(self._fields(spring.softness, rows), softness)
+        INTEGERS.write(self._addresses[rows] + np.uint64(spring.flags), flags)
+
+    def _fields(self, offsets: Sequence[int], rows: np.ndarray) -> np.ndarray:
+        """Addresses (6, r) of fields of constraints (r,)."""
+        return np.array(offsets, np.uint64)[:, None] + self._addresses[rows]
 
     def _doubles(self, offsets: Sequence[int]) -> np.ndarray:
-        fields = np.array(offsets, np.uint64)[:, None] + self._addresses
-        return gather_doubles(fields.ravel())[:, 0].reshape(6, -1)
+        return DOUBLES.gather(self._fields(offsets, np.arange(len(self._addresses))))
 
     def _check(self, address: int, name: str) -> None:
         """Rows are as Blender makes them."""
@@ -168,14 +165,6 @@ class ConstraintRows:
                 value = read_value(address + offset, "d")
                 if not abs(value - expected) <= _SAME_VALUE:
                     raise LayoutError(f"{field} of connection {name!r} is {value:g}, not {expected:g}")
-
-
-def _numbers(rows: np.ndarray) -> np.ndarray:
-    return Indices.checked("rows", rows, len(rows))
-
-
-def _doubles(name: str, values: np.ndarray, size: int) -> np.ndarray:
-    return Doubles.checked(name, np.ascontiguousarray(values), size)
 
 
 def check_frames(axes: np.ndarray, positions_m: np.ndarray, connections: Sequence[bpy.types.Object]) -> None:

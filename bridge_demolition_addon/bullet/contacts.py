@@ -9,11 +9,10 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from ..engineering.core.calls import DONE, NOT_FINITE, answer_of
 from ..engineering.core.structs import Count, Indices, Struct, WrittenAddresses, WrittenDoubles
 from ..engineering.geometry.vectors import dot, length
 from ..engineering.mechanics.contact_pairs import contact_friction
-from ..errors import LayoutError, NotFiniteError
+from ..errors import LayoutError
 from .layout import Layout
 from .memory import INTEGERS, POINTERS, copy_pointers, read, read_pointers, read_value
 
@@ -28,6 +27,8 @@ _CHECKED_POINTS = 200
 
 _MANIFOLD_END = struct.Struct("<QQi")
 """Both bodies of a contact, then the number of its points."""
+
+TOO_MANY_CONTACTS = "contacts, or points of one, are more than there can be"
 
 _UNIT = 1e-6
 """How far a unit vector's length, computed by Bullet in double precision, may be from 1."""
@@ -160,21 +161,24 @@ class ContactReader:
         self._sorted = bodies[self._order]
         self._is_checked, self._core = False, BulletContacts.of(layout, dispatcher)
 
-    def copy(self) -> ContactCopies:
-        """Copy the contact points that carry a load now."""
+    def core(self) -> BulletContacts:
+        """Return what the core gets of them."""
         if not self._is_checked:
             self._checked_manifolds()
-        core = self._core
-        answer = answer_of("bda_copy_contacts", core)
-        if answer == DONE and core.found > core.room:
-            core.make_room(2 * core.found)
-            answer = answer_of("bda_copy_contacts", core)
-        if answer == NOT_FINITE:
-            raise NotFiniteError("impulse of a contact", int(self._indices(np.array([core.wrong], np.uint64))[0]))
-        if answer:
-            raise LayoutError("contacts, or points of one, are more than there can be")
-        points = core.copied
-        return ContactCopies(points.components[:, : core.found].copy(), points.bodies[:, : core.found].copy())
+        return self._core
+
+    def make_room(self) -> None:
+        """Make room for all that carry a load now, and as many."""
+        self._core.make_room(2 * self._core.found)
+
+    def copied(self) -> ContactCopies:
+        """Return the contact points that the core has copied."""
+        points, found = self._core.copied, self._core.found
+        return ContactCopies(points.components[:, :found].copy(), points.bodies[:, :found].copy())
+
+    def wrong_body(self) -> int:
+        """Return the first body of the point that is not finite."""
+        return int(self._indices(np.array([self._core.wrong], np.uint64))[0])
 
     def contacts(self, copies: Sequence[ContactCopies]) -> Contacts:
         """Return the contact points in copies of s sub-steps, also those of sleeping bodies, which keep their last."""

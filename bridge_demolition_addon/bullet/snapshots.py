@@ -8,7 +8,7 @@ component by component, all x together in memory, then all y: arithmetic takes a
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -18,6 +18,7 @@ from ..engineering.geometry.vectors import as_vectors
 from .bodies import BodyTable
 from .constraints import ConstraintTable
 from .contacts import ContactCopies, Contacts
+from .tick import Tick
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -90,21 +91,44 @@ class SnapshotTaker:
         self._bodies, self._constraints = bodies, constraints
         self._sides = Indices.checked("sides", sides.astype(np.int64), sides.size)
 
-    def take(self, *, contacts: bool = True) -> Snapshot:
-        """Return a snapshot of the last sub-step, with contacts or as if there were none."""
-        bodies, constraints, sides, removed = self._bodies, self._constraints, self._sides, self._bodies.removed
-        components, loads = np.empty((19, len(bodies))), np.empty((6, len(sides)))
-        impulses, intact = np.empty(len(constraints)), np.empty(len(constraints), bool)
-        taken = components, loads, impulses, intact
-        call("bda_take_snapshot", bodies.core, constraints.core, len(sides), sides, *taken)
+    def take(self) -> Snapshot:
+        """Return a snapshot of now, as if there were no contacts."""
+        taken, bodies, constraints = self.room(), self._bodies, self._constraints
+        arrays = taken.body_components, taken.load_components, taken.applied_impulses, taken.intact
+        call("bda_take_snapshot", bodies.core, constraints.core, len(self._sides), self._sides, *arrays)
+        return taken
+
+    def room(self) -> Snapshot:
+        """Return room for a snapshot."""
+        count, removed = len(self._constraints), self._bodies.removed
         return Snapshot(
-            body_components=components,
-            load_components=loads,
-            applied_impulses=impulses,
-            intact=intact,
-            contacts=bodies.contacts.copy() if contacts else ContactCopies.none(),
+            body_components=np.empty((19, len(self._bodies))),
+            load_components=np.empty((6, len(self._sides))),
+            applied_impulses=np.empty(count),
+            intact=np.empty(count, bool),
+            contacts=ContactCopies.none(),
             removed=removed.copy() if removed.any() else None,
         )
+
+    def begin(self, tick: Tick, *, contacts: bool) -> Snapshot:
+        """Have a sub-step take a snapshot at its end, with contacts or as if there were none; return room for it."""
+        taken, count = self.room(), len(self._constraints)
+        tick.point("sides", self._sides, count)
+        tick.point("components", taken.body_components, 19 * len(self._bodies))
+        tick.point("taken", taken.load_components, 6 * count)
+        tick.point("impulses", taken.applied_impulses, count)
+        tick.point("left_intact", taken.intact, count)
+        tick.refer(contacts=self._bodies.contacts.core() if contacts else None)
+        tick.body_of_contact = self._bodies.contacts.wrong_body
+        return taken
+
+    def make_room(self) -> None:
+        """Make room for all contacts of now."""
+        self._bodies.contacts.make_room()
+
+    def with_contacts(self, snapshot: Snapshot) -> Snapshot:
+        """Return a snapshot with the contacts that were copied last."""
+        return replace(snapshot, contacts=self._bodies.contacts.copied())
 
     def contacts(self, snapshots: Sequence[Snapshot]) -> Contacts:
         """Return the contacts in s snapshots."""

@@ -67,7 +67,7 @@ class Footings(SpringsOfConnections):
 
     def update_plastic_state(self, positions_m: FloatArray, rotations: FloatArray) -> None:
         """Take over, before a sub-step, how far springs have settled or slid for good."""
-        call("bda_soil_settle", self._in_core(), Places.of(positions_m, rotations))
+        call("bda_soil_settle", self.core, Places.of(positions_m, rotations))
 
 
 PRESSURE_BY_STIFFNESS_M = 0.025

@@ -228,18 +228,17 @@ static int turns(const bda_bullet_bodies *b, int64_t body, double time_s, double
 /* Whether the motion of a body, and what acts on it, is finite before Bullet lets others feel it. */
 static int is_motion_finite(bda_bullet_bodies *b, int64_t body)
 {
-    double vectors[4][3];
-    uint64_t address = b->addresses[body];
-    copy_vector(address + (uint64_t)b->linear_velocity, vectors[0], 1, 0);
-    copy_vector(address + (uint64_t)b->angular_velocity, vectors[1], 1, 0);
-    copy_vector(address + (uint64_t)b->transform + 3 * IN_VECTOR, vectors[2], 1, 0);
-    copy_vector(address + (uint64_t)b->total_force, vectors[3], 1, 0);
-    int are_all = are_finite(vectors[0], 3, 1, BDA_VELOCITIES, &b->wrong) &&
-                  are_finite(vectors[1], 3, 1, BDA_ANGULAR_VELOCITIES, &b->wrong) &&
-                  are_finite(vectors[2], 3, 1, BDA_POSITIONS, &b->wrong) &&
-                  are_finite(vectors[3], 3, 1, BDA_FORCES, &b->wrong);
-    b->wrong.row = body;
-    return are_all;
+    const int64_t quantities[] = {BDA_VELOCITIES, BDA_ANGULAR_VELOCITIES, BDA_POSITIONS, BDA_FORCES};
+    const int64_t fields[] = {b->linear_velocity, b->angular_velocity, b->transform + 3 * IN_VECTOR, b->total_force};
+    for (int number = 0; number < 4; number++) {
+        double vector[3];
+        copy_vector(b->addresses[body] + (uint64_t)fields[number], vector, 1, 0);
+        if (!are_finite(vector, 3, 1, quantities[number], &b->wrong)) {
+            b->wrong.row = body;
+            return 0;
+        }
+    }
+    return 1;
 }
 
 /* Change angular velocities by what torques do in times (n,), and end these torques; where a time is infinite, they
@@ -272,29 +271,20 @@ int bda_turn_by_torques(bda_bullet_bodies *b, const double *times_s, double symm
     return BDA_DONE;
 }
 
-/* Write limits, one of r (6, r), times signs (6,) to the held rows of a spring, both alike: crossed limits leave a row free. */
-static void put_limits(const bda_bullet_rows *rows, int64_t spring, const double *limits, int64_t r, const double *signs)
+/* Have a spring be deformed by one of r limits (6, r) at the end of the coming sub-step: both limits of a row that is held
+ * are alike, and crossed ones leave it free. */
+void put_limits(const bda_bullet_rows *rows, int64_t spring, const double *limits, int64_t r)
 {
+    static const double SIGNS[6] = {1.0, 1.0, 1.0, -1.0, -1.0, -1.0}; /* Bullet takes rotations the other way */
     for (int row = 0; row < 6; row++) {
         int64_t place = row * rows->count + spring;
         uint64_t address = rows->addresses[spring];
-        double limit = limits[row * r] * signs[row];
+        double limit = limits[row * r] * SIGNS[row];
         if (!rows->held[place])
             continue;
         put_double(address + (uint64_t)rows->lower[row], rows->resists[place] ? limit : 1.0);
         put_double(address + (uint64_t)rows->upper[row], rows->resists[place] ? limit : -1.0);
     }
-}
-
-static void put_softness(const bda_bullet_rows *rows, int64_t spring, double correction, const double softness[6],
-                         int64_t flags)
-{
-    uint64_t address = rows->addresses[spring];
-    for (int row = 0; row < 6; row++) {
-        put_double(address + (uint64_t)rows->correction[row], correction);
-        put_double(address + (uint64_t)rows->softness[row], softness[row]);
-    }
-    put_int(address + (uint64_t)rows->flags, (int32_t)flags);
 }
 
 /* Write one of r frames: axes (3, 3, r), as columns, and positions (3, r). */
@@ -306,48 +296,23 @@ static void put_frame(uint64_t address, const double *axes, const double *points
                        row < 3 ? axes[(3 * row + axis) * (uint64_t)r] : points[axis * (uint64_t)r]);
 }
 
-/* Have springs (r,) be deformed by limits (6, r) times signs (6,) at the end of the coming sub-step. */
-int bda_expect(const bda_bullet_rows *rows, int64_t count, const int64_t *chosen, const double *limits,
-               const double *signs)
+/* Correct all of an error of a spring in a sub-step, with a softness (6,); rows that are freer are left free. */
+void soften_spring(const bda_bullet_rows *rows, const bda_softness *s, int64_t spring, const double own[6])
 {
-    if (!all_below(chosen, count, rows->count))
-        return BDA_OUT_OF_RANGE;
-    for (int64_t at = 0; at < count; at++)
-        put_limits(rows, chosen[at], limits + at, count, signs);
-    return BDA_DONE;
-}
-
-/* Have springs (r,) correct a share of an error in a sub-step, with a softness (6, r). */
-int bda_soften(const bda_bullet_rows *rows, int64_t count, const int64_t *chosen, double correction,
-               const double *softness, int64_t flags)
-{
-    if (!all_below(chosen, count, rows->count))
-        return BDA_OUT_OF_RANGE;
-    for (int64_t at = 0; at < count; at++) {
-        double own[6];
-        for (int row = 0; row < 6; row++)
-            own[row] = softness[row * count + at];
-        put_softness(rows, chosen[at], correction, own, flags);
+    uint64_t address = rows->addresses[spring];
+    for (int row = 0; row < 6; row++) {
+        int64_t place = row * rows->count + spring;
+        rows->resists[place] = rows->held[place] && own[row] < s->free_from;
+        put_double(address + (uint64_t)rows->correction[row], 1.0);
+        put_double(address + (uint64_t)rows->softness[row], own[row] > s->softest ? s->softest : own[row]);
     }
-    return BDA_DONE;
-}
-
-/* Put the frames at an offset of springs (r,) elsewhere: axes (3, 3, r), as columns, and positions (3, r). */
-int bda_put_frames(const bda_bullet_rows *rows, int64_t frame, int64_t count, const int64_t *chosen, const double *axes,
-                   const double *points)
-{
-    if (!all_below(chosen, count, rows->count))
-        return BDA_OUT_OF_RANGE;
-    for (int64_t at = 0; at < count; at++)
-        put_frame(rows->addresses[chosen[at]] + (uint64_t)frame, axes + at, points + at, count);
-    return BDA_DONE;
+    put_int(address + (uint64_t)rows->flags, (int32_t)s->flags);
 }
 
 /* Have springs (r,), of those that exist (k,), resist as cracks do: all of an error is corrected in a sub-step. */
 int bda_put_cracks(const bda_bullet_rows *rows, const bda_expected_cracks *e, const bda_softness *s, int64_t count,
                    const int64_t *chosen, const uint8_t *exists)
 {
-    static const double SIGNS[6] = {1.0, 1.0, 1.0, -1.0, -1.0, -1.0}; /* Bullet takes rotations the other way */
     if (!all_below(chosen, count, rows->count))
         return BDA_OUT_OF_RANGE;
     for (int64_t at = 0; at < count; at++) {
@@ -355,16 +320,12 @@ int bda_put_cracks(const bda_bullet_rows *rows, const bda_expected_cracks *e, co
         double softness[6];
         if (!exists[chosen[at]])
             continue;
-        for (int row = 0; row < 6; row++) {
-            int64_t place = row * rows->count + chosen[at];
-            double own = e->softness[row * count + at];
-            rows->resists[place] = rows->held[place] && own < s->free_from;
-            softness[row] = own > s->softest ? s->softest : own;
-        }
+        for (int row = 0; row < 6; row++)
+            softness[row] = e->softness[row * count + at];
         put_frame(address + (uint64_t)s->frame_a, e->first_axes + at, e->first_points + at, count);
         put_frame(address + (uint64_t)s->frame_b, e->second_axes + at, e->second_points + at, count);
-        put_softness(rows, chosen[at], 1.0, softness, s->flags);
-        put_limits(rows, chosen[at], e->deformations + at, count, SIGNS);
+        soften_spring(rows, s, chosen[at], softness);
+        put_limits(rows, chosen[at], e->deformations + at, count);
     }
     return BDA_DONE;
 }

@@ -69,13 +69,10 @@ BDA_API int bda_read_motion(bda_bullet_bodies *bodies, double symmetric, double 
 BDA_API int bda_push(const bda_bullet_bodies *bodies, const double *inverse_masses, const double *loads,
                      const double *impulses, double substep_s);
 BDA_API int bda_turn_by_torques(bda_bullet_bodies *bodies, const double *times_s, double symmetric);
-BDA_API int bda_expect(const bda_bullet_rows *rows, int64_t count, const int64_t *chosen, const double *limits,
-                       const double *signs);
-BDA_API int bda_soften(const bda_bullet_rows *rows, int64_t count, const int64_t *chosen, double correction,
-                       const double *softness, int64_t flags);
 BDA_API int bda_put_cracks(const bda_bullet_rows *rows, const bda_expected_cracks *expected,
                            const bda_softness *softness, int64_t count, const int64_t *chosen, const uint8_t *exists);
-BDA_API int bda_put_frames(const bda_bullet_rows *rows, int64_t frame, int64_t count, const int64_t *chosen,
-                           const double *axes, const double *points);
+
+void put_limits(const bda_bullet_rows *rows, int64_t spring, const double *limits, int64_t r);
+void soften_spring(const bda_bullet_rows *rows, const bda_softness *s, int64_t spring, const double own[6]);
 
 #endif

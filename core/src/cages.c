@@ -58,17 +58,6 @@ int bda_cages_settle(const bda_cages *c, const bda_places *p)
     return BDA_DONE;
 }
 
-/* Write forces (g,) along the lines of groups, above 0 in tension. */
-int bda_cages_forces(const bda_cages *c, const bda_places *p, double *forces)
-{
-    for (int64_t row = 0; row < c->count; row++) {
-        standing_bars bars;
-        TRY(find_bars(c, p, row, &bars));
-        forces[row] = force_of(c, row, &bars);
-    }
-    return BDA_DONE;
-}
-
 /* Write how the groups of a term are as a sub-step begins. */
 int begin_cages(const bda_cages *c, const bda_places *p, const bda_term *t)
 {

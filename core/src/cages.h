@@ -23,7 +23,6 @@ typedef struct {
 } bda_cages;
 
 BDA_API int bda_cages_settle(const bda_cages *cages, const bda_places *places);
-BDA_API int bda_cages_forces(const bda_cages *cages, const bda_places *places, double *forces);
 
 int begin_cages(const bda_cages *cages, const bda_places *places, const bda_term *term);
 

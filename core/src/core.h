@@ -5,7 +5,7 @@
 
 /* Add one wherever a function that Python calls, a struct or the meaning of a field changes. */
 #ifndef BDA_CORE_VERSION /* a test gives another one */
-#define BDA_CORE_VERSION 8
+#define BDA_CORE_VERSION 9
 #endif
 
 #include <float.h>

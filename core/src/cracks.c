@@ -80,8 +80,7 @@ int bda_cracks_settle(const bda_cracks *c, const bda_places *p, uint8_t *holds)
     int64_t count = CORNERS * c->count;
     if (!are_in_range(c, p->count))
         return BDA_OUT_OF_RANGE;
-    for (int64_t crack = 0; crack < c->count; crack++)
-        holds[crack] = 0;
+    memset(holds, 0, (size_t)c->count);
     for (int64_t at = 0; at < count; at++) {
         int64_t row = c->rows[at % c->count];
         double world[3], gap[3], normal[3], direction[3], before[3], stretch[3], slid[3], after[3];

@@ -42,15 +42,10 @@ void bda_equations_free(bda_equations *e)
 /* Block of L in a row of a column. */
 static int64_t block_at(const elimination *c, int64_t row, int64_t column)
 {
-    int64_t low = c->starts[column], high = c->starts[column + 1];
-    while (low < high) {
-        int64_t middle = low + (high - low) / 2;
-        if (c->rows[middle] < row)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low;
+    int64_t block = c->starts[column];
+    while (block + 1 < c->starts[column + 1] && c->rows[block] < row)
+        block++;
+    return block;
 }
 
 static places_of_connection places_of(const elimination *c, int64_t first, int64_t second)
@@ -129,19 +124,11 @@ static void add_connections(const bda_equations *e, double *totals, int64_t coun
     }
 }
 
-static int are_in_range(const bda_equations *e, int64_t count, const int64_t *connections)
-{
-    for (int64_t row = 0; row < count; row++)
-        if (connections[row] < 0 || connections[row] >= e->connections)
-            return 0;
-    return 1;
-}
-
 /* Take over the numbers of all bodies (b, 36), and what some connections (k,) add. */
 int bda_equations_assemble(bda_equations *e, const double *of_bodies, int64_t count, const int64_t *connections,
                            const blocks_of_connection *blocks)
 {
-    if (!are_in_range(e, count, connections))
+    if (!all_below(connections, count, e->connections))
         return BDA_OUT_OF_RANGE;
     memset(e->assembled, 0, (size_t)(BLOCK * e->columns.starts[e->bodies]) * sizeof *e->assembled);
     for (int64_t body = 0; body < e->bodies; body++)
@@ -223,7 +210,7 @@ static void find_column(bda_equations *e, int64_t column)
 /* Factor what was assembled, with what other connections (k,) add; the next time that is forgotten. */
 int bda_equations_factor(bda_equations *e, int64_t count, const int64_t *connections, const blocks_of_connection *blocks)
 {
-    if (!are_in_range(e, count, connections))
+    if (!all_below(connections, count, e->connections))
         return BDA_OUT_OF_RANGE;
     memcpy(e->blocks, e->assembled, (size_t)(BLOCK * e->columns.starts[e->bodies]) * sizeof *e->blocks);
     add_connections(e, e->blocks, count, connections, blocks);

@@ -321,9 +321,7 @@ int bda_over_together(bda_judging *j, const bda_carried_loads *all, int64_t in_m
         int64_t row = j->rows[number];
         double axes[3][3], used;
         turn_axes(all, row, axes);
-        int answer = use_together(j, (loads_of_faces){all, 0}, in_members, row, axes, &used);
-        if (answer != BDA_DONE)
-            return answer;
+        TRY(use_together(j, (loads_of_faces){all, 0}, in_members, row, axes, &used));
         used = used / j->left[row];
         if (in_members)
             used = larger(used, j->used[number] / redistributed);
@@ -346,9 +344,7 @@ int bda_used_together(const bda_judging *j, const bda_loads_in_cuts *loads, int6
         for (int axis = 0; axis < 3; axis++) /* given as columns */
             for (int line = 0; line < 3; line++)
                 axes[axis][line] = loads->axes[9 * number + 3 * line + axis];
-        int answer = use_together(j, (loads_of_faces){0, loads}, in_members, row, axes, loads->used + number);
-        if (answer != BDA_DONE)
-            return answer;
+        TRY(use_together(j, (loads_of_faces){0, loads}, in_members, row, axes, loads->used + number));
     }
     return BDA_DONE;
 }

@@ -25,34 +25,6 @@ static int gap_of_spring(const bda_spring_places *s, const bda_places *p, int64_
     return BDA_DONE;
 }
 
-/* Write gaps (3, p) below the bodies above, and arms (3, p) of the force there from the centres of both bodies. */
-int bda_spring_gaps(const bda_spring_places *s, const bda_places *p, double *gaps, double *arms_above,
-                    double *arms_below)
-{
-    for (int64_t row = 0; row < s->count; row++) {
-        double gap[3], arm[3], other[3];
-        TRY(gap_of_spring(s, p, row, gap, arm, other));
-        put_vector(gaps, s->count, row, gap);
-        put_vector(arms_above, s->count, row, arm);
-        put_vector(arms_below, s->count, row, other);
-    }
-    return BDA_DONE;
-}
-
-/* Write forces (3, p) on what lies above gaps (3, p), and by how much these fall with them, (3, 3, p). */
-int bda_springs_resisted(const bda_spring_law *s, const double *gaps, double *forces, double *tangents)
-{
-    for (int64_t row = 0; row < s->count; row++) {
-        double gap[3], force[3], tangent[3][3];
-        vector_at(gaps, s->count, row, gap);
-        force_of_spring(s, row, gap, force, tangent);
-        put_vector(forces, s->count, row, force);
-        for (int number = 0; number < 9; number++)
-            tangents[number * s->count + row] = tangent[number / 3][number % 3];
-    }
-    return BDA_DONE;
-}
-
 /* Part of the gap of a spring beyond where it resists nothing. */
 static void load_gap(const bda_springs *s, int64_t spring, const double gap[3], double loaded[3])
 {
@@ -222,9 +194,10 @@ int bda_pads_settle(const bda_springs *s, const bda_pads *b, const bda_places *p
     return BDA_DONE;
 }
 
-/* Write which connections (c,) that are intact (c,) fail, as they settled last: those whose bodies have left each other,
- * and all of a bearing that carries more than breaks what is left (c,) of it, sideways or upwards. */
-int bda_pads_failed(const bda_springs *s, const bda_pads *b, const uint8_t *intact, const double *left, uint8_t *failed)
+/* Write which of connections `rows` (c,), of those that are intact (m,), fail, as they settled last: those whose bodies
+ * have left each other, and all of a bearing that carries more than breaks what is left (m,) of it, sideways or upwards. */
+int bda_pads_failed(const bda_springs *s, const bda_pads *b, const int64_t *rows, const uint8_t *intact,
+                    const double *left, uint8_t *failed)
 {
     int64_t c = s->connections;
     if (!all_below(b->numbers, c, b->bearings))
@@ -232,12 +205,13 @@ int bda_pads_failed(const bda_springs *s, const bda_pads *b, const uint8_t *inta
     memset(b->whole, 0, (size_t)(3 * b->bearings) * sizeof *b->whole);
     for (int64_t row = 0; row < c; row++)
         for (int axis = 0; axis < 3; axis++)
-            b->whole[axis * b->bearings + b->numbers[row]] += b->forces[axis * c + row] * (intact[row] ? 1.0 : 0.0);
+            b->whole[axis * b->bearings + b->numbers[row]] +=
+                b->forces[axis * c + row] * (intact[rows[row]] ? 1.0 : 0.0);
     for (int64_t row = 0; row < c; row++) {
-        double force[3], limit = isfinite(b->breaking[row]) ? b->breaking[row] * left[row] : INFINITY;
+        double force[3], limit = isfinite(b->breaking[row]) ? b->breaking[row] * left[rows[row]] : INFINITY;
         vector_at(b->whole, b->bearings, b->numbers[row], force);
         double sideways = sqrt(force[0] * force[0] + force[1] * force[1]), used = larger(sideways, -force[2]);
-        failed[row] = intact[row] && (b->gone[row] || (limit > 0.0 ? used / limit : INFINITY) > 1.0);
+        failed[row] = intact[rows[row]] && (b->gone[row] || (limit > 0.0 ? used / limit : INFINITY) > 1.0);
     }
     return BDA_DONE;
 }

@@ -54,11 +54,8 @@ typedef struct {
 BDA_API int bda_springs_energy(const bda_springs *springs, const bda_places *places, double *energies);
 BDA_API int bda_soil_settle(const bda_springs *springs, const bda_places *places);
 BDA_API int bda_pads_settle(const bda_springs *springs, const bda_pads *pads, const bda_places *places);
-BDA_API int bda_pads_failed(const bda_springs *springs, const bda_pads *pads, const uint8_t *intact, const double *left,
-                            uint8_t *failed);
-BDA_API int bda_spring_gaps(const bda_spring_places *springs, const bda_places *places, double *gaps, double *arms_above,
-                            double *arms_below);
-BDA_API int bda_springs_resisted(const bda_spring_law *law, const double *gaps, double *forces, double *tangents);
+BDA_API int bda_pads_failed(const bda_springs *springs, const bda_pads *pads, const int64_t *rows,
+                            const uint8_t *intact, const double *left, uint8_t *failed);
 
 int begin_springs(const bda_springs *springs, const bda_places *places, const bda_term *term);
 

@@ -382,15 +382,10 @@ static void solve(work *w)
 /* Number of a connection among those that act. */
 static int64_t acting_number(const bda_substep *s, int64_t connection)
 {
-    int64_t low = 0, high = s->acting_count;
-    while (low < high) {
-        int64_t middle = low + (high - low) / 2;
-        if (s->acting[middle] < connection)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low < s->acting_count && s->acting[low] == connection ? low : -1;
+    int64_t at = 0;
+    while (at < s->acting_count && s->acting[at] < connection)
+        at++;
+    return at < s->acting_count && s->acting[at] == connection ? at : -1;
 }
 
 /* Add the impulses of terms to those on bodies, and those of springs to the connections that they are in place of. */

@@ -23,11 +23,11 @@ static bar_law sides_of(const bda_term *t, int64_t row)
     return (bar_law){t->grips[row], t->sheared * t->pressed[row], 0.0};
 }
 
-/* Bar, sides that rub, and how far the sides are open, of a crack whose gap is `gap`. */
+/* Force across a crack whose gap is `gap`, of bars, of sides that rub, and of sides that are pressed where it is closed. */
 static void crack_at(const bda_term *t, int64_t row, const double gap[3], bar_force *bar, bar_force *rub,
-                     double *opened, double normal[3], double direction[3])
+                     double *opened, double normal[3], double direction[3], double force[3])
 {
-    double stretch[3], slid[3], slip[3], rest[3];
+    double stretch[3], slid[3], slip[3], rest[3], left[3], pull[3];
     vector_at(t->normals, t->gaps, row, normal);
     vector_at(t->directions, t->gaps, row, direction);
     vector_at(t->slips, t->gaps, row, slip);
@@ -38,12 +38,7 @@ static void crack_at(const bda_term *t, int64_t row, const double gap[3], bar_fo
     *bar = force_of_bar(&bars, stretch, slip, t->flows[row]);
     slide_of_gap(gap, normal, *opened, slid);
     *rub = force_of_bar(&sides, slid, rest, 0.0);
-}
-
-static void force_of_crack(const bda_term *t, int64_t row, const bar_force *bar, const bar_force *rub, double opened,
-                           const double normal[3], const double direction[3], double force[3])
-{
-    double left[3], pull[3], pressing = t->pressed[row] * (opened < 0.0 ? opened : 0.0);
+    double pressing = t->pressed[row] * (*opened < 0.0 ? *opened : 0.0);
     for (int axis = 0; axis < 3; axis++)
         left[axis] = bar->share * bar->trial[axis];
     stretch_of_bar(left, direction, t->dowel, pull);
@@ -56,8 +51,7 @@ static void linear_crack(const bda_term *t, int64_t row, const double gap[3], do
 {
     bar_force bar, rub;
     double opened, normal[3], direction[3], unit[3], along[3], turn[3];
-    crack_at(t, row, gap, &bar, &rub, &opened, normal, direction);
-    force_of_crack(t, row, &bar, &rub, opened, normal, direction, force);
+    crack_at(t, row, gap, &bar, &rub, &opened, normal, direction, force);
     bar_law bars = bars_of(t, row), sides = sides_of(t, row);
     double even = t->dowel * t->dowel, hardening = bars.modulus / resistance(&bars);
     double bars_across = bars.stiffness * bar.share, rubs_across = sides.stiffness * rub.share;
@@ -114,8 +108,7 @@ void resisted_at(const guessed_term *g, int64_t row, const double moved[3], doub
     if (t->kind == CRACKS) {
         bar_force bar, rub;
         double opened, normal[3], direction[3];
-        crack_at(t, row, gap, &bar, &rub, &opened, normal, direction);
-        force_of_crack(t, row, &bar, &rub, opened, normal, direction, force);
+        crack_at(t, row, gap, &bar, &rub, &opened, normal, direction, force);
     } else {
         bda_spring_law springs = springs_of(t);
         force_of_spring(&springs, row, gap, force, tangent);
@@ -290,11 +283,9 @@ static void pull_of_gap(const guessed_term *g, int64_t row, const double *veloci
 {
     const bda_term *t = g->term;
     double rate[3], moved[3], force[3], direction[3];
-    rate_of_gap(t, row, velocities, bodies, rate);
+    moved_by(g, row, velocities, bodies, substep_s, moved);
+    linear_at(g, row, moved, force);
     if (t->kind != BARE_BARS) {
-        for (int axis = 0; axis < 3; axis++)
-            moved[axis] = substep_s * rate[axis];
-        linear_at(g, row, moved, force);
         if (t->solved_pressed)
             t->solved_pressed[t->which[row]] = larger(-force[2], 0.0);
         for (int axis = 0; axis < 3; axis++)
@@ -302,11 +293,10 @@ static void pull_of_gap(const guessed_term *g, int64_t row, const double *veloci
         return;
     }
     vector_at(t->directions, t->gaps, row, direction);
-    moved[0] = substep_s * dot3(direction, rate);
-    linear_at(g, row, moved, force);
     for (int axis = 0; axis < 3; axis++)
         pull[axis] = substep_s * force[0] * direction[axis];
     if (t->held_sideways) {
+        rate_of_gap(t, row, velocities, bodies, rate);
         for (int axis = 0; axis < 3; axis++)
             moved[axis] = t->widths[axis * t->gaps + row] - t->bared_lines[axis * t->gaps + row] +
                           substep_s * rate[axis];
@@ -462,19 +452,16 @@ void blocks_of_gaps(guessed_term *g, int64_t connection, int64_t first_gap, doub
  * change with that. */
 int bda_try_term(bda_term *t, const double *moved, double *forces)
 {
-    int components = t->kind == BARE_BARS ? 1 : 3;
-    double *room = calloc((size_t)(10 * (t->gaps > 0 ? t->gaps : 1)), sizeof *room);
-    guessed_term g = {.term = t, .components = components, .at_rest = room};
+    double *room = calloc((size_t)(7 * t->gaps + 1), sizeof *room);
+    guessed_term g = {.term = t, .components = t->kind == BARE_BARS ? 1 : 3, .at_rest = room, .resisted = forces};
     if (!room)
         return BDA_NO_MEMORY;
-    g.stiff = room + 3 * t->gaps, g.moved = room + 4 * t->gaps, g.resisted = room + 7 * t->gaps;
+    g.stiff = room + 3 * t->gaps, g.moved = room + 4 * t->gaps;
     for (int64_t row = 0; row < t->gaps; row++) {
         double own[3];
-        for (int axis = 0; axis < components; axis++)
+        for (int axis = 0; axis < g.components; axis++)
             own[axis] = moved[axis * t->gaps + row];
         begin_at(&g, row, own);
-        for (int axis = 0; axis < components; axis++)
-            forces[axis * t->gaps + row] = g.resisted[axis * t->gaps + row];
     }
     free(room);
     return BDA_DONE;

@@ -66,7 +66,7 @@ def test_points_are_copied_by_the_core_as_by_numpy(blender, tmp_path, monkeypatc
     blocks.block((0, 0, -0.5), size_m=(10, 10, 1))
     for level in range(3):
         blocks.block((0.1 * level, 0, 0.52 + 1.02 * level), 100.0)
-    made, of_core = ContactReader.__init__, ContactReader.copy
+    made, of_core = ContactReader.__init__, ContactReader.copied
 
     def note(reader, layout, dispatcher, bodies):
         dispatchers[reader] = layout, dispatcher
@@ -81,7 +81,7 @@ def test_points_are_copied_by_the_core_as_by_numpy(blender, tmp_path, monkeypatc
         return found
 
     monkeypatch.setattr(ContactReader, "__init__", note)
-    monkeypatch.setattr(ContactReader, "copy", both_ways)
+    monkeypatch.setattr(ContactReader, "copied", both_ways)
     blocks.play(tmp_path, 12)
     assert 0 in copied and max(copied) >= 12
 

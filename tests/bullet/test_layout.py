@@ -8,6 +8,7 @@ import pytest
 from support.blocks import Blocks
 
 from bridge_demolition_addon.bullet.layout import platform_layout
+from bridge_demolition_addon.bullet.tick import SubstepStage, Tick
 from bridge_demolition_addon.bullet.world import BulletWorld, WorldState
 from bridge_demolition_addon.errors import DemolitionError
 
@@ -97,8 +98,13 @@ def sliding(blender):
 def contacts_of(sliding, layout):
     world, _ = bound(sliding, layout)
     try:
-        taker = world.snapshots(np.zeros(0, int))
-        return taker.contacts([taker.take()])
+        taker, tick = world.snapshots(np.zeros(0, int)), Tick()
+        tick.refer(bodies=world.bodies.core, connections=world.constraints.core)
+        taken = taker.begin(tick, contacts=True)
+        tick.next = SubstepStage.TAKE
+        while tick.go_on():
+            taker.make_room()
+        return taker.contacts([taker.with_contacts(taken)])
     finally:
         world.release()
 

@@ -19,15 +19,15 @@ def test_bodies_and_connections_are_copied_as_by_numpy(blender, tmp_path, monkey
     blocks.connect("FIXED", (0, 0, 0.5), ground, upper[0], WEAK_N)
     blocks.connect("FIXED", (1, 0, 1.5), *upper)
     blocks.connect("POINT", (0, 0, 0.5), ground, upper[1]).rigid_body_constraint.enabled = False
-    made, of_core, intact_of_core = SnapshotTaker.__init__, SnapshotTaker.take, ConstraintTable.intact
+    made, of_core, intact_of_core = SnapshotTaker.__init__, SnapshotTaker.with_contacts, ConstraintTable.intact
 
     def note(taker, *parts):
         tables[:] = parts
         made(taker, *parts)
 
-    def both_ways(taker, **options):
+    def both_ways(taker, snapshot):
         (bodies, table, sides), layout = tables, platform_layout()
-        found = of_core(taker, **options)
+        found = of_core(taker, snapshot)
         state = np.vstack(
             (reference.components(layout, bodies.addresses), bodies.can_move() * found.body_components[18])
         )
@@ -39,6 +39,9 @@ def test_bodies_and_connections_are_copied_as_by_numpy(blender, tmp_path, monkey
             (found.intact, intact),
         ):
             np.testing.assert_array_equal(one, other)
+        at_once = taker.take()
+        np.testing.assert_array_equal(at_once.body_components, found.body_components)
+        np.testing.assert_array_equal(at_once.load_components, found.load_components)
         taken.append(found.intact.tolist())
         return found
 
@@ -52,7 +55,7 @@ def test_bodies_and_connections_are_copied_as_by_numpy(blender, tmp_path, monkey
         return found
 
     monkeypatch.setattr(SnapshotTaker, "__init__", note)
-    monkeypatch.setattr(SnapshotTaker, "take", both_ways)
+    monkeypatch.setattr(SnapshotTaker, "with_contacts", both_ways)
     monkeypatch.setattr(ConstraintTable, "intact", intact_both_ways)
     blocks.play(tmp_path, 6)
     assert seen[0] == [True, True, False] and seen[-1] == taken[-1]

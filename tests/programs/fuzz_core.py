@@ -11,12 +11,14 @@ from pathlib import Path
 
 import numpy as np
 from support.core_terms import forces_and_tangents, term_in_substep, term_of_law
+from support.own_ticks import OwnMemory, elastic_tick
 
 from bridge_demolition_addon.bullet.body_motion import BodyMotionReader, BulletBodies
 from bridge_demolition_addon.bullet.constraint_rows import BulletRows, Softness
 from bridge_demolition_addon.bullet.constraints import BulletConnections
 from bridge_demolition_addon.bullet.contacts import BulletContacts
 from bridge_demolition_addon.bullet.layout import SYSTEM_V
+from bridge_demolition_addon.bullet.tick import StandingSprings, SubstepStage
 from bridge_demolition_addon.engineering.blast.exposure import projected_areas
 from bridge_demolition_addon.engineering.blast.pulses import Pulses, impulse_between
 from bridge_demolition_addon.engineering.core import library
@@ -27,7 +29,7 @@ from bridge_demolition_addon.engineering.elasticity.cracks import Cracks, Expect
 from bridge_demolition_addon.engineering.elasticity.equations import BlockSystem, RigidBodies
 from bridge_demolition_addon.engineering.elasticity.joint_rows import JointFrames
 from bridge_demolition_addon.engineering.elasticity.kept_joints import KeptJoints, velocities_alone
-from bridge_demolition_addon.engineering.elasticity.springs import PressedSprings, SpringPositions
+from bridge_demolition_addon.engineering.elasticity.springs import PressedSprings, SpringPositions, SpringsOfConnections
 from bridge_demolition_addon.engineering.elasticity.steel_bars import Steel
 from bridge_demolition_addon.engineering.elasticity.structure import ElasticStructure, StepInput
 from bridge_demolition_addon.engineering.elasticity.substep import (
@@ -147,17 +149,16 @@ class Cases:
         chosen = self.among(self.count(4), len(cracks))
         term = term_in_substep(cracks, chosen, *places)
         moving = self.numbers(bodies), self.numbers(3, 3, bodies), self.numbers(6, bodies)
-        ExpectedCracks.of(term, bodies).find(Places.of(*places), *moving, 0.01)
+        ExpectedCracks.of(term, bodies).between(*moving).find(Places.of(*places), 0.01)
 
     def of_springs(self):
         bodies, count = self.count(6), self.count(9)
         ends = self.among(count, bodies), self.among(count, bodies)
         anchors = self.numbers(3, count), self.numbers(3, count)
         places = SpringPositions(np.zeros(count, int), *ends, *anchors, np.ones(1, bool))
-        gaps, *_ = places.gaps(*self.places(bodies))
         law = [self.numbers(count), self.numbers(2, count), self.numbers(count), self.numbers(count)]
         springs = PressedSprings(*law, self.rng.integers(0, 2, count).astype(bool), self.numbers(count))
-        springs.resisted(self.odd(gaps))
+        SpringsOfConnections(np.zeros(1, int), places, springs).standing(*self.places(bodies)).resisted()
 
     def of_bearings(self):
         """Pads and footings that settle and fail, of bodies and connections that there may not be."""
@@ -379,7 +380,9 @@ class Cases:
             *((name, np.zeros((6, bodies)), 6 * bodies) for name in ("of_bodies", "ends")),
         ):
             substep.point(name, array, size)
-        substep.solve(frames, places, list[Term]())
+        substep.stand(frames, places)
+        substep.act(list[Term]())
+        substep.solve()
 
     def of_bullet(self):
         """Bodies, springs and contacts in memory of our own, with rows that there are not."""
@@ -388,12 +391,7 @@ class Cases:
         addresses = memory.ctypes.data + size * np.arange(count, dtype=np.uint64)
         reader = BodyMotionReader(SYSTEM_V, addresses)
         bodies = BulletBodies.of(SYSTEM_V.body, addresses)
-        for act in (
-            reader.read,
-            lambda: reader.turn_by_torques(self.numbers(count)),
-            lambda: reader.push(reader.read(), self.numbers(6, count), 0.01),
-        ):
-            self.refused_or_done(act)
+        self.refused_or_done(reader.read)
         exists, sides = rng.integers(0, 2, (2, count)).astype(bool), self.among(count, 2 * count)
         connections = BulletConnections(count=count, enabled=32, applied_impulse=56)
         for name, array in (("addresses", addresses), ("exists", exists), ("cracked", ~exists)):
@@ -403,12 +401,9 @@ class Cases:
         call("bda_take_snapshot", bodies, connections, len(sides), sides, *taken)
         held = rng.integers(0, 2, (6, count)).astype(bool)
         rows, chosen = BulletRows.of(SYSTEM_V.spring, addresses, held, held), self.among(self.count(5), count)
-        call("bda_expect", rows, len(chosen), chosen, np.zeros((6, len(chosen))), np.ones(6))
-        call("bda_soften", rows, len(chosen), chosen, 1.0, np.zeros((6, len(chosen))), 0)
         expected = ExpectedCracks.of(Term.of_cracks(chosen, chosen, np.zeros((12, 0)), 0.1, 0.1), count)
         softness = Softness(softest=0.5, free_from=2.0, flags=1, frame_a=80, frame_b=240)
         call("bda_put_cracks", rows, expected, softness, len(chosen), chosen, exists)
-        call("bda_put_frames", rows, 80, len(chosen), chosen, np.zeros((9, len(chosen))), np.zeros((3, len(chosen))))
         whole = memory.view(np.int64)
         lists = SYSTEM_V.dispatcher
         dispatcher = memory.ctypes.data + count * size
@@ -421,6 +416,42 @@ class Cases:
         contacts = BulletContacts.of(SYSTEM_V, dispatcher)
         contacts.make_room(self.count(8))
         assert answer_of("bda_copy_contacts", contacts) in range(4)
+
+    def of_sub_steps(self):
+        """Sub-steps by stages, in any order, of structures that there may not be, with numbers that are wrong."""
+        rng, bodies, count = self.rng, 1 + self.count(5), self.count(6)
+        masses = rng.uniform(1.0, 9.0, bodies) * rng.integers(0, 2, bodies)
+        inverse = np.divide(1.0, masses, out=np.zeros(bodies), where=masses > 0.0)
+        own = OwnMemory(rng.normal(size=(3, bodies)), inverse, count)
+        own.put_vectors("linear_velocity", rng.normal(size=(bodies, 3)))
+        rigid = RigidBodies(masses, np.eye(3)[:, :, None] * masses, *self.places(bodies))
+        structure = ElasticStructure(self.frames(bodies, count), np.zeros((6, 6, count)), rigid, 1e-4)
+        tick, _ = elastic_tick(own, structure, 0.01, self.odd)
+        numbers = tick.count + int(rng.choice([0, 0, 0, -1]))
+        tick.is_judged, tick.count = int(rng.integers(2)), numbers
+        self.bear(tick, own, count)
+        for first in (SubstepStage.READ, SubstepStage.TAKE, *rng.integers(-1, 11, 3)):
+            tick.next = int(first)
+            if tick.go_on():
+                structure.choose(rng.integers(0, 2, count).astype(bool), rng.integers(0, 2, bodies).astype(bool))
+
+    def bear(self, tick, own, count):
+        """Have some connections stand on footings, of bodies and connections that there may not be."""
+        bodies, of = own.core_bodies.count, self.among(self.count(3), count)
+        if not len(of) or not count:
+            return
+        soil = SoilSprings(
+            *(
+                np.unique(of),
+                np.searchsorted(np.unique(of), np.sort(of)),
+                self.numbers(len(of), 3),
+                abs(self.numbers(len(of))),
+            ),
+            *(self.numbers(len(np.unique(of))) for _ in range(4)),
+        )
+        ends = [self.among(count, bodies) for _ in range(2)]
+        footings = Footings(soil, *ends, np.ones(bodies, bool), *self.places(bodies))
+        tick.stand("footings", StandingSprings.of(self.odd(footings.rows), footings.core))
 
     def refused_or_done(self, act):
         try:

@@ -10,7 +10,7 @@ import numpy as np
 
 from ...errors import NotFiniteError
 from .library import function
-from .structs import Struct, address_of
+from .structs import NotFinite, Struct, address_of
 
 DONE, NO_MEMORY, OUT_OF_RANGE, NOT_FINITE = range(4)
 """Answers of functions: those of `core/src/vectors.h`."""
@@ -19,6 +19,7 @@ _OF_BODIES = (
     *("position", "rotation", "velocity", "angular velocity", "mass", "moment of inertia", "force"),
     "impulse of a contact",
 )
+CONTACT_IMPULSE = len(_OF_BODIES) - 1
 _OF_CONNECTIONS = ("deformation", "stiffness", "damping", "force")
 """Quantities in the order of `core/src/core.h`."""
 
@@ -56,11 +57,16 @@ def call(name: str, *arguments: Struct | np.ndarray | float) -> None:
         There is no room.
     """
     answer = answer_of(name, *arguments)
-    if answer == NOT_FINITE:
-        wrong = next(argument.wrong for argument in arguments if isinstance(argument, Struct))
-        raise not_finite(wrong.quantity, wrong.row)
     if answer:
-        raise (MemoryError if answer == NO_MEMORY else ValueError)(_ANSWERS[answer])
+        wrong = next((argument.wrong for argument in arguments if hasattr(argument, "wrong")), NotFinite())
+        raise fault(answer, wrong)
+
+
+def fault(answer: int, wrong: NotFinite) -> Exception:
+    """Return the error of an answer; `wrong` is what is not finite, where that is it."""
+    if answer == NOT_FINITE:
+        return not_finite(wrong.quantity, wrong.row)
+    return (MemoryError if answer == NO_MEMORY else ValueError)(_ANSWERS[answer])
 
 
 def not_finite(quantity: int, row: int) -> NotFiniteError:

@@ -15,7 +15,7 @@ from typing import Any
 
 from ...errors import CoreError
 
-VERSION = 8
+VERSION = 9
 """`BDA_CORE_VERSION` in core/src/core.h."""
 
 FILE = "bda_core" + {"win32": ".dll", "darwin": ".dylib"}.get(sys.platform, ".so")

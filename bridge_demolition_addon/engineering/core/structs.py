@@ -117,6 +117,7 @@ class Struct(ctypes.Structure):
     def __init__(self, **values: int | float) -> None:
         super().__init__(**values)
         self._kept: dict[str, npt.NDArray[Any]] = {}
+        self._referred: dict[str, Struct | None] = {}
 
     def point(self, name: str, array: npt.NDArray[Any], size: int) -> None:
         """Let a field point to an array, which has this number of elements; an array that cannot be handed over raises.
@@ -128,6 +129,17 @@ class Struct(ctypes.Structure):
         self._pointers[name].checked(name, array, size)
         setattr(self, name, address_of(array))
         self._kept[name] = array
+
+    def refer(self, **structs: Struct | None) -> None:
+        """Let fields point to other structs, or to nothing."""
+        for name, struct in structs.items():
+            if self._referred.get(name) is not struct or name not in self._referred:
+                setattr(self, name, None if struct is None else ctypes.addressof(struct))
+                self._referred[name] = struct
+
+    def keep(self, name: str, struct: Struct) -> None:
+        """Keep what a field is a copy of."""
+        self._referred[name] = struct
 
     def take(self, **arrays: tuple[npt.NDArray[Any], int]) -> Self:
         """Let fields point to arrays, each with its number of elements, and return the struct.
@@ -147,7 +159,7 @@ class Struct(ctypes.Structure):
     def __deepcopy__(self, memo: dict[int, Any]) -> Self:
         """Return one that points to copies of the arrays: those of this one may be gone before it."""
         other = type(self).from_buffer_copy(self)
-        other._kept = {}
+        other._kept, other._referred = {}, {}
         memo[id(self)] = other
         for name, array in self._kept.items():
             copied = deepcopy(array, memo)

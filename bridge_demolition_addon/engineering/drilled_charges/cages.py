@@ -190,6 +190,11 @@ class Cages:
         """Which of them (g,) hold."""
         return self._groups.holds
 
+    @property
+    def core(self) -> GroupsInCore:
+        """What the core works on, which changes what is here."""
+        return self._groups.core
+
     def let_go(self, bodies: IntArray) -> None:
         """Let go of the bars that end in some bodies (b,)."""
         gone = np.isin(self._groups.first, bodies) | np.isin(self._groups.second, bodies)
@@ -201,9 +206,10 @@ class Cages:
 
     def forces_n(self, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
         """Return the forces (g,) along their lines, above 0 in tension."""
-        forces = np.empty(len(self))
-        call("bda_cages_forces", self._groups.core, Places.of(positions_m, rotations), forces)
-        return forces
+        term = self.term(np.arange(len(self)))
+        term.begin(positions_m, rotations)
+        (forces,) = term.resisted()
+        return np.asarray(forces)
 
     def pressed_n(self, chosen: IntArray) -> FloatArray:
         """Return the largest forces (k,) in compression that some groups have had so far."""

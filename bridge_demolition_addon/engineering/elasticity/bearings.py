@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import ctypes
 from collections.abc import Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, fields
 
 import numpy as np
 
@@ -31,7 +31,7 @@ from .springs import (
     loads_of_springs,
     stiffness_of_springs,
 )
-from .substep import Places
+from .substep import Places, Term
 
 _LIFTED_M = 0.02
 """Opening from which on pins and guides of a bearing that holds no uplift are out of their holes."""
@@ -161,7 +161,7 @@ class Bearings(SpringsOfConnections):
 
     def update_plastic_state(self, positions_m: FloatArray, rotations: FloatArray) -> None:
         """Take over, before a sub-step, how far springs have slid, and which bodies have left each other."""
-        call("bda_pads_settle", self._in_core(), self._pads_in_core(), Places.of(positions_m, rotations))
+        call("bda_pads_settle", self.core, self.core_pads, Places.of(positions_m, rotations))
 
     def failed(self, intact: BoolArray, left: FloatArray) -> IntArray:
         """Return which connections (k,) of those (m,) that are intact break, as it settled last.
@@ -169,8 +169,11 @@ class Bearings(SpringsOfConnections):
         A connection breaks alone where its bodies have left each other, all of a bearing by its force; `left` (m,) is
         the part of its strength that each has.
         """
-        failed = np.empty(len(self.rows), bool)
-        call("bda_pads_failed", self._in_core(), self._pads_in_core(), intact[self.rows], left[self.rows], failed)
+        failed, all_of_them = np.empty(len(self.rows), bool), Flags.checked("intact", intact, len(left))
+        if len(self.rows) and not self.rows.max() < len(left):
+            raise ValueError(f"bearings are in place of connection {self.rows.max()} of {len(left)}")
+        left = Doubles.checked("left", left, len(left))
+        call("bda_pads_failed", self.core, self.core_pads, self.rows, all_of_them, left, failed)
         return self.rows[failed]
 
     def diagonal(self) -> FloatArray:
@@ -183,7 +186,7 @@ class Bearings(SpringsOfConnections):
 
     def pressed_at(self, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
         """Return the pressing forces (p,) by which springs hold sideways, with bodies at these positions."""
-        return self._holding_by(self._pressing(self._positions.gaps(positions_m, rotations)[0]))
+        return self._holding_by(self._pressing(self.standing(positions_m, rotations).arrays["widths"]))
 
     def add_loads(
         self,
@@ -198,10 +201,10 @@ class Bearings(SpringsOfConnections):
         These are in ascending order. Springs slide by friction times `pressed_n` (p,); without it they neither slide
         nor lift off.
         """
-        gaps, arms, arms_below = self._positions.gaps(positions_m, rotations)
-        forces = self._resisted(gaps, pressed_n)[0]
+        term = self.standing(positions_m, rotations)
+        forces = self._resisted(term, pressed_n)[0]
         mine, at = self._among(connections)
-        for load, more in zip(loads, loads_of_springs(self._positions, forces, arms, arms_below), strict=True):
+        for load, more in zip(loads, loads_of_springs(self._positions, forces, *_arms(term)), strict=True):
             load[:, at] += more[:, mine]
 
     def add_stiffness(
@@ -213,17 +216,18 @@ class Bearings(SpringsOfConnections):
         pressed_n: FloatArray | None,
     ) -> None:
         """Add their stiffness to the blocks (6, 6, r) of connections (r,), as `add_loads` does forces."""
-        gaps, arms, arms_below = self._positions.gaps(positions_m, rotations)
-        tangents = self._resisted(gaps, pressed_n)[1]
+        term = self.standing(positions_m, rotations)
+        tangents = self._resisted(term, pressed_n)[1]
         mine, at = self._among(connections)
-        for block, more in zip(blocks, stiffness_of_springs(self._positions, tangents, arms, arms_below), strict=True):
+        for block, more in zip(blocks, stiffness_of_springs(self._positions, tangents, *_arms(term)), strict=True):
             block[..., at] += more[..., mine]
 
-    def _resisted(self, gaps: FloatArray, pressed_n: FloatArray | None) -> tuple[FloatArray, FloatArray]:
-        """Forces (3, p) and tangents (3, 3, p)."""
+    def _resisted(self, term: Term, pressed_n: FloatArray | None) -> tuple[FloatArray, FloatArray]:
+        """Forces (3, p) on what lies above, and tangents (3, 3, p)."""
         if pressed_n is None:
-            return -turned(self._law.whole, gaps), self._law.whole
-        return replace(self._law, pressed_n=pressed_n).resisted(gaps)
+            return -turned(self._law.whole, term.arrays["widths"]), self._law.whole
+        term.arrays["pressed_by"][:] = pressed_n
+        return -term.resisted(), term.arrays["tangents"]
 
     def _among(self, connections: IntArray) -> tuple[IntArray, IntArray]:
         """Return which of the bearings are among some connections, and where there."""
@@ -232,12 +236,15 @@ class Bearings(SpringsOfConnections):
 
     def loads_at_rest(self, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
         """Return forces and moments (6, c) on the first bodies, about the middle of each connection's springs."""
-        gaps, arms, _ = self._positions.gaps(positions_m, rotations)
-        forces = replace(self._law, pressed_n=self._holding_by(self._pressing(gaps))).resisted(gaps)[0]
+        term = self.standing(positions_m, rotations)
+        forces = self._resisted(term, self._holding_by(self._pressing(term.arrays["widths"])))[0]
         middles = turned(rotations[..., self._above], self._middles)[:, self._positions.of]
-        return loads_of_springs(self._positions, forces, arms - middles, arms - middles)[0]
+        arms = term.arrays["second_arms"] - middles
+        return loads_of_springs(self._positions, forces, arms, arms)[0]
 
-    def _pads_in_core(self) -> CorePads:
+    @property
+    def core_pads(self) -> CorePads:
+        """The bearings, as the core takes them."""
         if self._pads is None:
             pressed_n = self._pressed_n
             assert pressed_n is not None
@@ -278,3 +285,8 @@ class Bearings(SpringsOfConnections):
         bearing = self._springs.bearings[self._positions.of]
         whole = np.bincount(bearing, own, int(bearing.max(initial=-1)) + 1)[bearing]
         return np.where(np.isinf(self._law.friction), whole, own)
+
+
+def _arms(term: Term) -> tuple[FloatArray, FloatArray]:
+    """Arms (3, p) from the centres of the bodies above and below to where the forces of springs act."""
+    return term.arrays["second_arms"], term.arrays["first_arms"]

@@ -36,7 +36,7 @@ CORNERS = np.array([(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)])
 
 _COUNT = len(CORNERS)
 
-_STATES = 8
+CRACK_STATES = 8
 """Numbers of the state of a crack, `bda_cracks_state`."""
 
 _LITTLE_SHARE = 1e-9
@@ -145,11 +145,20 @@ class Cracks:
     def update_plastic_state(self, positions_m: FloatArray, rotations: FloatArray) -> IntArray:
         """Take over how far bars have yielded by now; return the connections (d,) that no bar replaces any more."""
         holds = np.empty(len(self.rows), bool)
-        call("bda_cracks_settle", self._in_core(), Places.of(positions_m, rotations), holds)
+        call("bda_cracks_settle", self.core, Places.of(positions_m, rotations), holds)
+        return self.keep(holds)
+
+    def keep(self, holds: BoolArray) -> IntArray:
+        """Forget the cracks (t,) that no bar holds; return the connections (d,) that no bar replaces any more."""
         gone = self.rows[~holds]
         if len(gone):
             self._keep(holds)
         return gone
+
+    @property
+    def held_corners(self) -> tuple[int, int]:
+        """How many corners bars hold, and at how many sides still meet, of which ever fewer do."""
+        return int(np.count_nonzero(self._holds)), int(np.count_nonzero(self._meets))
 
     def ruptured_in_part(self) -> IntArray:
         """Return the connections (d,) whose bars have ruptured at some corners, and hold at others."""
@@ -165,13 +174,13 @@ class Cracks:
         All else stays as it is. Return whether they then resist another force.
         """
         before = self._grips_n.copy()
-        call("bda_cracks_grip", self._in_core(), Places.of(positions_m, rotations))
+        call("bda_cracks_grip", self.core, Places.of(positions_m, rotations))
         return bool((abs(self._grips_n - before) > _SAME_GRIP * self._grips_n.max(initial=0.0)).any())
 
     def state(self, positions_m: FloatArray, rotations: FloatArray) -> CrackState:
         """Return the state of all cracks after a sub-step, before it is settled."""
-        states = np.empty((_STATES, len(self.rows)))
-        call("bda_cracks_state", self._in_core(), Places.of(positions_m, rotations), states)
+        states = np.empty((CRACK_STATES, len(self.rows)))
+        call("bda_cracks_state", self.core, Places.of(positions_m, rotations), states)
         return CrackState(self.rows, *states)
 
     def used(self, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
@@ -193,10 +202,11 @@ class Cracks:
 
     def term(self, chosen: IntArray) -> Term:
         """Return what some cracks (c,) do, as long as there are the same."""
-        return Term.of_cracks(self.rows[chosen], chosen, self.remembered, DOWEL_SHARE, SHEARED, self._in_core())
+        return Term.of_cracks(self.rows[chosen], chosen, self.remembered, DOWEL_SHARE, SHEARED, self.core)
 
-    def _in_core(self) -> CoreCracks:
-        """Return what the core works on, which changes what is here."""
+    @property
+    def core(self) -> CoreCracks:
+        """What the core works on, which changes what is here."""
         if self._core is None:
             count, connections = len(self.rows), len(self._shares)
             self._core = CoreCracks(
@@ -312,21 +322,19 @@ class ExpectedCracks(Struct):
             deformations=(made.rows[1], 6 * count),
         )
 
-    def find(
-        self,
-        places: Places,
-        inverse_masses: FloatArray,
-        inverse_inertias: FloatArray,
-        velocities: FloatArray,
-        substep_s: float,
-    ) -> None:
-        """Find them for bodies with inverse masses (n,), inverse inertias (3, 3, n) and velocities (6, n)."""
-        self.substep_s = substep_s
-        self.take(
+    def between(
+        self, inverse_masses: FloatArray, inverse_inertias: FloatArray, velocities: FloatArray
+    ) -> ExpectedCracks:
+        """Take bodies with inverse masses (n,), inverse inertias (3, 3, n) and velocities (6, n), and return itself."""
+        return self.take(
             inverse_masses=(inverse_masses, self.bodies),
             inverse_inertias=(inverse_inertias, 9 * self.bodies),
             velocities=(velocities, 6 * self.bodies),
         )
+
+    def find(self, places: Places, substep_s: float) -> None:
+        """Find them in a sub-step that is solved."""
+        self.substep_s = substep_s
         call("bda_expect_cracks", self.cracks, places, self)
 
 

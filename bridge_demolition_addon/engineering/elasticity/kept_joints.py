@@ -5,11 +5,9 @@ All arrays have their components first.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 
-from ..arrays import BoolArray, FloatArray, IntArray
+from ..arrays import FloatArray, IntArray
 from ..core.calls import call
 from ..core.structs import Doubles
 from .joint_rows import JointFrames
@@ -64,20 +62,3 @@ def velocities_alone(
             raise ValueError(f"there are {array.size} numbers of {count} bodies: expected {size * count}")
     call("bda_velocities_alone", count, *arrays, substep_s, alone)
     return alone
-
-
-def put_loads(
-    loads: FloatArray,
-    on_first: BoolArray,
-    holding: BoolArray,
-    parts: Sequence[tuple[IntArray, FloatArray, FloatArray]],
-    substep_s: float,
-) -> None:
-    """Write the loads (6, m) of connections that hold (m,) in a sub-step, and 0 for the others.
-
-    They are those on first bodies, or on second ones (m,). `parts` are numbers (k,) of some connections with their
-    impulses (6, k) on both.
-    """
-    loads[:, ~holding] = 0.0
-    for numbers, of_first, of_second in parts:
-        loads[:, numbers] = np.where(on_first[numbers], of_first, of_second) / substep_s

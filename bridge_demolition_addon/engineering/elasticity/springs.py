@@ -53,18 +53,6 @@ class PressedSprings:
         tangents[0, 0], tangents[1, 1], tangents[2, 2] = *self.sideways_n_m, self.vertical_n_m
         return tangents
 
-    def resisted(self, gaps_m: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return forces (3, q) on what lies above gaps (3, q), and by how much these fall with them, (3, 3, q)."""
-        count = len(self.vertical_n_m)
-        forces, tangents = np.empty((3, count)), np.empty((3, 3, count))
-        call("bda_springs_resisted", self.core, self._of_all(gaps_m), forces, tangents)
-        return forces, tangents
-
-    def _of_all(self, gaps_m: FloatArray) -> FloatArray:
-        if gaps_m.shape != (3, len(self.vertical_n_m)):
-            raise ValueError(f"gaps have shape {gaps_m.shape}: expected (3, {len(self.vertical_n_m)})")
-        return np.ascontiguousarray(gaps_m)
-
     @cached_property
     def core(self) -> _Law:
         """The law, as the core takes it."""
@@ -125,12 +113,6 @@ class SpringPositions:
             turned_back(rotations[..., bodies], places_m.T - positions_m[:, bodies]) for bodies in (above_of, below_of)
         ]
         return cls(of, above_of, below_of, anchors[0], anchors[1], first == above)
-
-    def gaps(self, positions_m: FloatArray, rotations: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Return gaps (3, p) below the bodies above, and arms (3, p) of the force there, from both bodies' centres."""
-        gaps, arms, arms_below = (np.empty((3, len(self.of))) for _ in range(3))
-        call("bda_spring_gaps", self.core, Places.of(positions_m, rotations), gaps, arms, arms_below)
-        return gaps, arms, arms_below
 
     @cached_property
     def core(self) -> _Places:
@@ -231,29 +213,40 @@ class SpringsOfConnections:
                 "pulls": law.pulls,
                 "above_first": positions.above_first,
             },
-            self._in_core(),
+            self.core,
         )
         if self._pressed_n is not None:
             term.point("solved_pressed", self._pressed_n, len(self._positions.of))
         return term
 
+    def standing(self, positions_m: FloatArray, rotations: FloatArray) -> Term:
+        """Return all springs as they are with bodies at these positions, by themselves and not in a sub-step.
+
+        `widths` (3, p) are gaps beyond where springs resist nothing, `second_arms` and `first_arms` (3, p) lead from
+        the centres of the bodies above and below to where the forces act.
+        """
+        term = self.term(np.arange(len(self.rows)))
+        term.begin(positions_m, rotations)
+        return term
+
     def stored_j(self, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
         """Return the energy (c,) that the springs would give back."""
         stored = np.empty(len(self.rows))
-        call("bda_springs_energy", self._in_core(), Places.of(positions_m, rotations), stored)
+        call("bda_springs_energy", self.core, Places.of(positions_m, rotations), stored)
         return stored
 
-    def _in_core(self) -> CoreSprings:
+    @property
+    def core(self) -> CoreSprings:
+        """What the core works on, which changes what is here."""
         if self._springs_in_core is None:
-            at, law, count = self._positions.core, self._law.core, len(self._positions.of)
-            self._springs_in_core = CoreSprings(
-                at=ctypes.addressof(at), law=ctypes.addressof(law), connections=len(self.rows)
-            ).take(
+            count = len(self._positions.of)
+            self._springs_in_core = CoreSprings(connections=len(self.rows)).take(
                 of=(self._positions.of, count),
                 free=(self._free, 3 * count),
                 holding=(self._law.pressed_n, count),
                 touching=(self.touching, len(self.rows)),
             )
+            self._springs_in_core.refer(at=self._positions.core, law=self._law.core)
         return self._springs_in_core
 
 

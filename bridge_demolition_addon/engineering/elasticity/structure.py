@@ -152,8 +152,8 @@ class ElasticStructure:
         self._count, self._moves = len(bodies), bodies.moves
         positions = joint_positions(frames, bodies.positions_m, bodies.rotations)
         self._joints = KeptJoints(frames, self._count, stiffness, positions.deformations())
-        self._solved = Substep()
-        self._solved.from_rest = int(from_rest)
+        self.solved = Substep()
+        self.solved.from_rest = int(from_rest)
         self.deformations = np.zeros((6, len(frames)))
         for name, array, size in (
             ("masses", np.ascontiguousarray(bodies.masses_kg, float), self._count),
@@ -163,7 +163,7 @@ class ElasticStructure:
             ("rows", np.zeros((len(frames), 36)), 36 * len(frames)),
             ("deformations", self.deformations, 6 * len(frames)),
         ):
-            self._solved.point(name, array, size)
+            self.solved.point(name, array, size)
         self._intact = np.ones(len(frames), bool)
         self._substep_s = 0.0
         self._cracks, self._has_broken = cracks, False
@@ -220,17 +220,46 @@ class ElasticStructure:
         self._follow_breaks(intact)
         self.begin_substep(substep_s)
         step = self.acting_with(start.asleep)
-        solved = self._solved
-        solved.point("velocities", np.ascontiguousarray(start.velocities), 6 * self._count)
-        solved.solve(self._joints.core_frames, Places.of(start.positions_m, start.rotations), self._acting_terms)
+        self.stand(Places.of(start.positions_m, start.rotations), np.ascontiguousarray(start.velocities))
+        self.solved.solve()
         return step
+
+    def stand(self, places: Places, velocities: FloatArray) -> None:
+        """Take over where bodies are, and their velocities (6, n) at the end of a sub-step without connections."""
+        self.solved.stand(self._joints.core_frames, places)
+        self.solved.point("velocities", velocities, 6 * self._count)
+
+    def choose(self, intact: BoolArray, asleep: BoolArray) -> ElasticStep:
+        """Return the effects of what acts where some connections (m,) are intact, and some bodies (n,) asleep."""
+        self._follow_breaks(intact)
+        return self.acting_with(asleep)
+
+    @property
+    def is_current(self) -> bool:
+        """Whether all acts that was chosen, as far as it does not change by itself in a sub-step."""
+        return self._step is not None and all(law.remembered is known for law, known in self._remembered)
+
+    @property
+    def intact(self) -> BoolArray:
+        """Connections (m,) that were intact when this was chosen."""
+        return self._intact
+
+    @property
+    def awake(self) -> BoolArray:
+        """Which parts (p + 1,) were awake when this was chosen."""
+        return self._awake
+
+    @property
+    def has_lost(self) -> bool:
+        """Whether a part has lost a connection since its frequency was asked for."""
+        return any(part.has_lost for part in self._parts)
 
     def begin_substep(self, substep_s: float) -> None:
         """Take over the length of a sub-step."""
         if substep_s != self._substep_s:
-            self._substep_s = self._solved.substep_s = substep_s
+            self._substep_s = self.solved.substep_s = substep_s
             self._stale[:-1] = True
-        self._solved.point("damping_s", self._damping_s, len(self._frames))
+        self.solved.point("damping_s", self._damping_s, len(self._frames))
 
     def acting_with(self, asleep: BoolArray) -> ElasticStep:
         """Return the effects of what acts while some bodies (n,) are asleep, which each sub-step writes again.
@@ -238,16 +267,12 @@ class ElasticStructure:
         They are the same as long as nothing else acts.
         """
         awake = self._awake_parts(asleep)
-        if (
-            self._step is None
-            or not same(awake, self._awake)
-            or not all(law.remembered is remembered for law, remembered in self._remembered)
-        ):
+        if self._step is None or not self.is_current or not same(awake, self._awake):
             self._awake = awake
-            self._step = self._choose(awake)
+            self._step = self._chosen(awake)
         return self._step
 
-    def _choose(self, awake: BoolArray) -> ElasticStep:
+    def _chosen(self, awake: BoolArray) -> ElasticStep:
         """Choose what acts while some parts (p + 1,) are awake."""
         are_awake = awake[self.part_of_connection]
         acts = self._intact & are_awake[: len(self._frames)]
@@ -271,7 +296,7 @@ class ElasticStructure:
             velocities=np.empty((6, bodies)),
             crack_term=cracks,
         )
-        solved = self._solved
+        solved = self.solved
         solved.acting_count = acting
         solved.point("equations", self._equations_of(awake), len(self._parts))
         solved.point("awake", awake, len(awake))
@@ -279,6 +304,7 @@ class ElasticStructure:
         for name in ("rates", "of_first", "of_second", "of_bodies"):
             solved.point(name, getattr(step, name), getattr(step, name).size)
         solved.point("ends", step.velocities, 6 * bodies)
+        solved.act(self._acting_terms)
         return step
 
     def _equations_of(self, awake: BoolArray) -> IntArray:
@@ -311,7 +337,14 @@ class ElasticStructure:
             self._bare_bars.update_plastic_state(positions_m, rotations)
         if self._cracks is None or not len(self._cracks):
             return np.zeros(0, int)
-        gone = self._cracks.update_plastic_state(positions_m, rotations)
+        return self._forget(self._cracks.update_plastic_state(positions_m, rotations))
+
+    def forget(self, holds: BoolArray) -> IntArray:
+        """Let go of the cracks that no bar holds, of all (t,); return which connections these were in place of (d,)."""
+        assert self._cracks is not None
+        return self._forget(self._cracks.keep(holds))
+
+    def _forget(self, gone: IntArray) -> IntArray:
         if len(gone):
             self._stale[self.part_of_connection[gone]] = True
             self._stale[-1] = False
@@ -364,13 +397,13 @@ class ElasticStructure:
             within[bodies] = -1
         # One more, the last, for what belongs to no part: -1.
         self._stale = np.append(np.ones(len(self._parts), bool), False)
-        self._step = None
+        self._step, self.parts = None, self.part_of_connection[: len(self._frames)]
         self._addresses = np.zeros(len(self._parts), int)
         self._has_broken = False
         within_part = np.full(count, -1)
         for part in self._parts:
             within_part[part.connections] = np.arange(len(part.connections))
-        solved = self._solved
+        solved = self.solved
         solved.parts, solved.bars = len(self._parts), count - len(self._frames)
         starts = np.cumsum([0, *(len(part.bodies) for part in self._parts)])
         bodies = np.concatenate([np.zeros(0, int), *(part.bodies for part in self._parts)])

@@ -251,6 +251,12 @@ class Term(Struct):
         """Begin a sub-step with bodies at these positions, as one that is solved does by itself."""
         call("bda_begin_term", self, Places.of(positions_m, rotations))
 
+    def resisted(self) -> FloatArray:
+        """Return forces (d, q) across the gaps as they are, by which the tangents are written."""
+        forces = np.empty((1 if self.kind == BARE_BARS else 3, self.gaps))
+        call("bda_try_term", self, np.zeros_like(forces), forces)
+        return forces
+
 
 class Substep(Struct):
     """A sub-step: `bda_substep`."""
@@ -298,7 +304,16 @@ class Substep(Struct):
     def __init__(self) -> None:
         super().__init__(turned_rad=TURNED_RAD, most_guesses=_MOST_GUESSES)
 
-    def solve(self, frames: Frames, places: Places, terms: Sequence[Term]) -> None:
+    def stand(self, frames: Frames, places: Places) -> None:
+        """Take over where connections and bodies are."""
+        self.refer(frames=frames, places=places)
+
+    def act(self, terms: Sequence[Term]) -> None:
+        """Take over the terms that act in place of some connections."""
+        self._terms = terms, (ctypes.c_void_p * max(len(terms), 1))(*(ctypes.addressof(term) for term in terms))
+        self.term_count, self.terms = len(terms), ctypes.addressof(self._terms[1])
+
+    def solve(self) -> None:
         """Find what connections, and terms in place of some, do in it.
 
         Raises
@@ -310,9 +325,6 @@ class Substep(Struct):
         MemoryError
             There is no room.
         """
-        addresses = (ctypes.c_void_p * max(len(terms), 1))(*(ctypes.addressof(term) for term in terms))
-        self.frames, self.places = ctypes.addressof(frames), ctypes.addressof(places)
-        self.term_count, self.terms = len(terms), ctypes.addressof(addresses)
         call("bda_solve_substep", self)
 
 

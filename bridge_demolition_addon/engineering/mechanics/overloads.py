@@ -29,7 +29,7 @@ from .strength import (
     utilisation,
 )
 
-_MOST_REDISTRIBUTED = 3.0
+MOST_REDISTRIBUTED = 3.0
 """By how much the stress in an elastic face may exceed its strength as long as its section carries the load.
 
 A section evens out peaks of stress beside notches and edges, two to three times the mean. A sliver that is stretched
@@ -122,9 +122,8 @@ class Overloads:
         if not self._judging.count:  # mostly: then what the others carry is not worked out
             return self._rows[:0]
         in_members = self._hand_over(self._rows[: self._judging.count], parts)
-        call("bda_over_together", self._judging, carrying, in_members, _MOST_REDISTRIBUTED)
-        rows, used = self._found()
-        return rows[worst_around(self._pairs[rows], used, self._moves)] if len(rows) else rows
+        call("bda_over_together", self._judging, carrying, in_members, MOST_REDISTRIBUTED)
+        return self.worst()
 
     def overloaded(
         self,
@@ -174,6 +173,28 @@ class Overloads:
         carrying = sections.carrying(loads, positions_m, rotations)
         call("bda_over_alone", judging, carrying)
         return carrying
+
+    def hand_over(
+        self, intact: BoolArray, sections: CarriedSections, left: FloatArray, parts: IntArray | None
+    ) -> Judging:
+        """Return what the core judges by, which takes over what the caller keeps up to date."""
+        count = len(self._pairs)
+        self._judging.take(intact=(intact, count), left=(left, count), levers=(sections.lever_arms_m, count))
+        self._hand_over(self._rows[:0], parts)
+        return self._judging
+
+    def judges_in_members(self, parts: IntArray | None) -> bool:
+        """Whether connections are judged in sections of members."""
+        return self._member_sections is not None and parts is not None
+
+    def find_sections(self, parts: IntArray | None) -> None:
+        """Find the sections of members of connections that the core has found to be overloaded alone."""
+        self._hand_over(self._rows[: self._judging.count], parts)
+
+    def worst(self) -> IntArray:
+        """Return which connections (k,) the core has found to be overloaded, each the worst around."""
+        rows, used = self._found()
+        return rows[worst_around(self._pairs[rows], used, self._moves)] if len(rows) else rows
 
     def _found(self) -> tuple[IntArray, FloatArray]:
         """Return which connections (k,) the core has found, and their utilisations (k,)."""
@@ -235,7 +256,7 @@ class Overloads:
         used = self._used_together(rows, loads, axes, intact, parts) / left[rows]
         if self._member_sections is None or parts is None:
             return used
-        return np.maximum(used, alone / _MOST_REDISTRIBUTED)
+        return np.maximum(used, alone / MOST_REDISTRIBUTED)
 
     def _strength_at(self, rows: IntArray) -> Strength:
         """Strength (r,) of some connections, without what is lost of it in all directions."""

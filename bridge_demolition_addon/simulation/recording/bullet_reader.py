@@ -22,7 +22,7 @@ from ...scene.connections.elasticity import named_bearings_of
 from ...scene.run_setup import RunSetup
 from ...scene.tools.ground_motion import rows_on_moving_ground
 from .blast import Blast
-from .breaking import Breaker, Breaks, ElasticPrediction, Resistance
+from .breaking import Breaker, Breaks, CoreStep, Resistance
 from .drivers import LastSubstepLoads, ThresholdScale, WarmUp
 from .elastic_connections import ElasticConnections, RestingState, SupportSprings
 from .events import AppliedEvent, Events
@@ -124,6 +124,8 @@ class BulletReader:
         ruptured = bars_that_rupture(breaking.bars, inventory, world.bodies.motion())
         resistance = Resistance(overloads, events.remaining_strength, elastic, holding, ruptured)
         breaker = Breaker(constraints, meter, resistance, warm_up)
+        torques = Torques(np.array(setup.bodies.rigid["angular_damping"]))
+        core = CoreStep(world, elastic, breaker, meter, torques)
         drivers = in_order(
             (
                 self._last_loads,
@@ -136,8 +138,7 @@ class BulletReader:
                 pulls,
                 self._fall_beds(),
                 tendons,
-                ElasticPrediction(elastic, breaker) if elastic else None,
-                Torques(world.bodies, np.array(setup.bodies.rigid["angular_damping"])),
+                core,
             )
         )
         if loads:
@@ -147,7 +148,7 @@ class BulletReader:
             self._sums = FrameSums(meter, inventory, self._work(), bearings, cracks, every_substep=self._every_substep)
         elif not breaker.uses_strength:
             constraints.write_loads(wanted=False)  # nothing reads them
-        return SubstepRecorder(constraints, drivers, meter, breaker, warm_up, self._sums)
+        return SubstepRecorder(constraints, drivers, core, breaker, warm_up, self._sums)
 
     def before_frame(self, substeps: int) -> None:
         """Set how many sub-steps the coming frame has."""

@@ -13,11 +13,12 @@ import numpy as np
 
 from ...bullet.body_motion import BodyMotion
 from ...bullet.constraint_rows import check_frames
+from ...bullet.tick import StandingSprings, Tick
 from ...bullet.world import BulletWorld
 from ...engineering.arithmetic import power
 from ...engineering.elasticity.bearings import Bearings, PadSprings
 from ...engineering.elasticity.crack_state import CrackState
-from ...engineering.elasticity.cracks import Cracks, ExpectedCracks
+from ...engineering.elasticity.cracks import CRACK_STATES, Cracks, ExpectedCracks
 from ...engineering.elasticity.equations import RigidBodies, without
 from ...engineering.elasticity.equilibrium import Equilibrium, equilibrium
 from ...engineering.elasticity.joint_rows import (
@@ -30,9 +31,8 @@ from ...engineering.elasticity.joint_rows import (
     matrix_products,
     transposed,
 )
-from ...engineering.elasticity.kept_joints import put_loads, velocities_alone
 from ...engineering.elasticity.section_stiffness import SectionStiffness, in_frames
-from ...engineering.elasticity.structure import ElasticStep, ElasticStructure, StepInput
+from ...engineering.elasticity.structure import ElasticStructure
 from ...engineering.elasticity.substep import Places
 from ...engineering.elasticity.tendons import TendonForces
 from ...engineering.foundations import Footings, SoilSprings
@@ -45,7 +45,6 @@ from ...model.structure.equilibrium import largest_deflection_m
 from ...model.structure.tendons import ModelTendons
 from ...scene.connections.constraints import Breaking
 from ...scene.world import scene_time_step
-from .lifting_constraints import LiftingConstraints
 from .standing_bars import StandingBarsOfZones
 
 _SOFTEST = 0.1
@@ -145,7 +144,9 @@ class ElasticConnections:
         pairs = np.where(is_first[:, None], inventory.pairs, inventory.pairs[:, ::-1])
         (axes_a, points_a), (axes_b, points_b) = self._rows.frame_components()
         self._frames = JointFrames(pairs[:, 0], pairs[:, 1], axes_a, axes_b, points_a, points_b)
-        self.motion = motion = self._reader.read()
+        motion = self._reader.read()
+        self.motion = BodyMotion.room_for(len(motion.asleep))
+        self._alone = np.empty_like(motion.velocity_components)
         _check_frames(self._frames, world, motion)
         positions = joint_positions(self._frames, motion.position_components_m, motion.rotation_components)
         sections = components_first(section_axes(inventory.normals))
@@ -170,7 +171,8 @@ class ElasticConnections:
             self._stiffness = without(self._stiffness, pads.rows)
         tendons = springs.tendons if springs else None
         self.tendons: TendonForces | None = tendons.forces(*built) if tendons else None
-        self._lifting = [LiftingConstraints(law) for law in (self._footings, self._bearings) if law]
+        laws = {"footings": self._footings, "bearings": self._bearings}
+        self._standing = {name: StandingSprings.of(law.rows, law.core) for name, law in laws.items() if law}
         self._rest = self._settle(motion)
         self._frequencies = np.full(len(self._frames), self._rest.frequency_hz)  # of the part of each connection
         self._structure: ElasticStructure | None = None
@@ -179,6 +181,7 @@ class ElasticConnections:
         self._on_ground = (inventory.body_kinds == "ground")[inventory.pairs].any(axis=1)
         self._cracks: Cracks | None = None
         self._expected: ExpectedCracks | None = None
+        self._holds = np.zeros(0, bool)
         self.bare_bars = StandingBarsOfZones(self._reader, motion, self._masses, len(self._frames))
         self._built = motion
         self._substep_s, self._left = 0.0, np.ones_like(self._left_per_second)
@@ -246,64 +249,86 @@ class ElasticConnections:
     @property
     def parts(self) -> np.ndarray:
         """Part of the bridge that each connection (m,) was in as the sub-step began, -1 for broken ones."""
-        return given(self._structure).part_of_connection[: len(self._frames)]
+        return given(self._structure).parts
 
-    def begin_substep(self, substep_s: float) -> None:
-        """Read the bodies before a sub-step of a length in s, after all other loads on them."""
-        self.motion = motion = self._reader.read()
-        if substep_s != self._substep_s:
-            self._prepare(motion, substep_s)
-        if self.bare_bars.take_added():
+    def begin_substep(self, tick: Tick, substep_s: float) -> None:
+        """Take over, before a sub-step of a length in s, what changes with the length, or once a frame."""
+        is_other, are_added = substep_s != self._substep_s, self.bare_bars.take_added()
+        self._since_fit_s += substep_s
+        loses = self._since_fit_s >= (1.0 - 1e-6) * self._frame_s and self._structure and self._structure.has_lost
+        if is_other or are_added or loses:
+            self._reader.read_into(self.motion)
+        if is_other:
+            self._prepare(self.motion, substep_s)
+        if are_added:
             given(self._structure).stand_bare(self.bare_bars.law)
-        self._follow_frequencies(motion)
-        alone = motion.inverse_masses, motion.inverse_inertia_components, motion.load_components
-        velocities = velocities_alone(motion.velocity_components, self._left, *alone, substep_s)
-        gone = given(self._structure).update_plastic_state(motion.position_components_m, motion.rotation_components)
-        if len(gone):
-            self._world.constraints.break_rows(gone)
-        for lifting in self._lifting:
-            lifting.follow(self._rows, self._softness, self._world.constraints.intact)
-        self._start = StepInput(motion.position_components_m, motion.rotation_components, velocities, motion.asleep)
+        if loses:
+            self._follow_frequencies(self.motion)
+        given(self._structure).begin_substep(substep_s)
+        self.hand_over(tick)
 
-    def predict(self) -> np.ndarray:
-        """Return forces and torques (6, m) in the sub-step, on the bodies where they are read, without contacts."""
-        intact = self._world.constraints.intact()
-        self._coming = step = given(self._structure).step(self._start, intact, self._substep_s)
-        of_connections = step.acting, step.of_first, step.of_second
-        of_cracks = step.cracks, step.of_cracks_on_first, step.of_cracks_on_second
-        parts = (of_connections, of_cracks) if len(step.cracks) else (of_connections,)
-        put_loads(self.loads, self._on_first, self.holding(intact), parts, self._substep_s)
-        return self.loads
+    def hand_over(self, tick: Tick) -> None:
+        """Let a sub-step have springs and bars as they are now, and know whether all acts as it was chosen."""
+        structure, cracks = given(self._structure), self._cracks if self._cracks else None
+        tick.is_current = structure.is_current
+        tick.point("left", self._left, self._left.size)
+        tick.point("soft", self._softness, self._softness.size)
+        tick.refer(solved=structure.solved, bars=self.bare_bars.law.core, cracks=cracks.core if cracks else None)
+        if self._expected:
+            self._expected.substep_s = self._substep_s
+        if cracks and len(cracks) != len(self._holds):
+            self._holds = np.empty(len(cracks), bool)
+        tick.point("holds", self._holds, len(self._holds))
 
-    def apply(self) -> None:
-        """Put the predicted sub-step into Bullet."""
-        motion, step = self.motion, self._coming
-        self._reader.push(motion, step.of_bodies, self._substep_s)
-        coming = given(self._structure).deformations[:, step.acting] - self._substep_s * step.rates
-        self._rows.expect(step.acting, coming)
-        self._expect_cracks(motion, step)
+    def connect(self, tick: Tick) -> None:
+        """Let sub-steps have what stays the same from one to the next."""
+        count, motion = len(self._frames), self.motion
+        tick.point("motion", motion.components, motion.components.size)
+        tick.point("asleep", motion.asleep, motion.asleep.size)
+        tick.point("alone", self._alone, self._alone.size)
+        tick.point("intact", np.empty(count, bool), count)
+        tick.point("on_first", self._on_first, count)
+        tick.point("loads", self.loads, 6 * count)
+        tick.refer(rows=self._rows.core, softness=self._rows.softness)
+        for name, standing in self._standing.items():
+            tick.stand(name, standing)
+        if self._bearings:
+            self._failed = np.empty(len(self._bearings.rows), bool)
+            tick.point("failed", self._failed, len(self._failed))
+            tick.refer(pads=self._bearings.core_pads)
+
+    def forget_ruptured(self) -> None:
+        """Break the connections whose cracks no bar holds any more, as the core has found."""
+        self._world.constraints.break_rows(given(self._structure).forget(self._holds))
+
+    def choose(self, tick: Tick) -> None:
+        """Choose what acts: connections have broken, or parts fell asleep or woke."""
+        structure, motion, count = given(self._structure), self.motion, len(self._frames)
+        step = structure.choose(self._world.constraints.intact(), motion.asleep)
+        numbers, awake = np.flatnonzero(structure.intact), np.empty(structure.awake.size, bool)
+        tick.count = len(numbers)
+        tick.point("numbers", numbers, len(numbers))
+        tick.point("chosen", structure.intact, count)
+        tick.point("awake", awake, awake.size)
+        if step.crack_term is None:
+            self._expected = None
+        else:
+            inertia = motion.inverse_masses, motion.inverse_inertia_components
+            self._expected = ExpectedCracks.of(step.crack_term, len(motion.asleep)).between(*inertia, step.velocities)
+            self._rows.let_resist_as_cracks(step.cracks)
+        tick.refer(crack_term=step.crack_term, expected=self._expected)
+
+    def end_substep(self) -> None:
+        """Find parts again once the sub-step is put into Bullet, where connections broke."""
         given(self._structure).end_substep()
 
-    def _expect_cracks(self, motion: BodyMotion, step: ElasticStep) -> None:
-        """Have Bullet's rows of cracks resist what contacts change of their motion, as bars and sides do."""
-        if step.crack_term is None:
-            return
-        places = Places.of(motion.position_components_m, motion.rotation_components)
-        inertia = motion.inverse_masses, motion.inverse_inertia_components
-        expected = self._expected
-        if expected is None or expected.cracks is not step.crack_term:
-            self._expected = expected = ExpectedCracks.of(step.crack_term, len(inertia[0]))
-        expected.find(places, *inertia, step.velocities, self._substep_s)
-        self._rows.resist_as(expected, step.cracks, self._world.constraints.exists)
-
-    def energy(self, intact: np.ndarray, positions_m: np.ndarray, rotations: np.ndarray) -> ElasticEnergy:
-        """Return what is stored in connections (m,) that are intact, or in their reinforcement, and its state.
-
-        Bodies are at positions (3, n) in rotations (3, 3, n).
-        """
-        structure = given(self._structure)
-        cracks = structure.crack_state(positions_m, rotations)
-        return ElasticEnergy(structure.stored_j(positions_m, rotations, cracks) * self.holding(intact), cracks)
+    def begin_energy(self, tick: Tick) -> ElasticEnergy:
+        """Return room for the energy in connections and bars, and have a sub-step write it."""
+        self.hand_over(tick)
+        stored, states = np.empty(len(self._frames)), np.empty((CRACK_STATES, len(self._cracks or ())))
+        tick.point("stored", stored, stored.size)
+        tick.point("states", states, states.size)
+        return ElasticEnergy(stored, CrackState(self._cracks.rows, *states) if self._cracks else None)
 
     @property
     def have_bars(self) -> np.ndarray | None:
@@ -337,12 +362,16 @@ class ElasticConnections:
         apart[self._cracks.slid_off()] = False
         return apart
 
-    def failed_bearings(self, intact: np.ndarray, left: np.ndarray) -> np.ndarray:
-        """Return the connections (b,) at pads, of those (m,) that are intact, that break before the coming sub-step.
+    @property
+    def failed_bearings(self) -> np.ndarray:
+        """Connections (b,) at pads that break before the coming sub-step, as the core has found."""
+        return self._bearings.rows[self._failed] if self._bearings else np.zeros(0, int)
 
-        Each has a part `left` (m,) of its strength.
-        """
-        return self._bearings.failed(intact, left) if self._bearings else np.zeros(0, int)
+    @property
+    def held_corners(self) -> tuple[np.ndarray, tuple[int, int]]:
+        """Connections (t,) that cracks replace, another array where there are others; corners held, and that meet."""
+        cracks = given(self._cracks)
+        return cracks.rows, cracks.held_corners
 
     def _settle(self, motion: BodyMotion) -> Equilibrium:
         """Put the bodies where they rest under their own weight."""
@@ -370,6 +399,8 @@ class ElasticConnections:
                 self._footings,
                 self._bearings,
             )
+            places = Places.of(motion.position_components_m, motion.rotation_components)
+            self._structure.stand(places, self._alone)
         self._structure.damp(self._damping_s)
         self._soften(motion)
 
@@ -387,9 +418,6 @@ class ElasticConnections:
 
     def _follow_frequencies(self, motion: BodyMotion) -> None:
         """Have the damping ratio hold for parts that have lost connections."""
-        self._since_fit_s += self._substep_s
-        if self._since_fit_s < (1.0 - 1e-6) * self._frame_s:
-            return
         structure = given(self._structure)
         fitted = structure.frequencies_after_breaks(motion.position_components_m, motion.rotation_components)
         if not fitted:
@@ -413,9 +441,9 @@ class ElasticConnections:
             diagonal[:, self._bearings.rows] = self._bearings.diagonal()
         hardness = substep_s * (substep_s + self._damping_s) * diagonal * inverse
         softness = np.divide(1.0, hardness, out=np.full_like(hardness, np.inf), where=hardness > 0.0)
-        self._softness = softness
-        for lifting in self._lifting:
-            lifting.begin()
+        self._softness = np.ascontiguousarray(softness)
+        for standing in self._standing.values():
+            standing.touch()
         self._rows.soften(intact, softness[:, intact])
         # Sleeping bodies are held as they are, in the sub-step in which Bullet finds what wakes them.
         self._rows.expect(intact, positions.deformations()[:, intact])

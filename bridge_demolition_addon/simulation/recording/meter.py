@@ -9,13 +9,14 @@ import numpy as np
 
 from ...bullet.contacts import Contacts
 from ...bullet.snapshots import BodyHistory, Snapshot
+from ...bullet.tick import Tick
 from ...bullet.world import BulletWorld
 from ...engineering.geometry.vectors import axes_in_bodies, carried_axes, transformed, transformed_back
 from ...engineering.mechanics.carried_sections import CarriedSections
 from ...engineering.mechanics.frame_loads import Moment, SubstepLoads
 from ...engineering.mechanics.section_cuts import SectionForces, section_axes, section_forces
 from ...model.results.frames import Inventory
-from .elastic_connections import ElasticConnections, ElasticEnergy
+from .elastic_connections import ElasticConnections
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,7 +35,6 @@ class Meter:
     """
 
     def __init__(self, world: BulletWorld, inventory: Inventory, elastic: ElasticConnections | None):
-        self._elastic = elastic
         pairs = inventory.pairs
         # On a fixed body Bullet leaves out a part of a hinge's torque: loads are read on the other.
         side = np.where(inventory.moves[pairs[:, 0]], 0, 1)
@@ -54,24 +54,28 @@ class Meter:
             bodies, signs, np.ascontiguousarray(levers), np.ascontiguousarray(self._local_axes)
         )
 
-    def read(self, substep_s: float, end_s: float, *, contacts: bool = True) -> Reading:
-        """Return Bullet's state after a sub-step; of elastic connections Bullet knows only what contacts change.
+    def begin(self, tick: Tick, *, contacts: bool) -> Snapshot:
+        """Have a sub-step copy Bullet's state at its end, and return room for it.
 
-        Without contacts the loads of bodies are not known.
+        Of elastic connections Bullet knows only what contacts change: their loads are added. Without contacts the loads
+        of bodies are not known.
         """
-        snapshot = self._snapshots.take(contacts=contacts)
-        if self._elastic:
-            np.add(snapshot.load_components, self._elastic.loads, out=snapshot.load_components)
-        return Reading(snapshot, substep_s, end_s)
+        snapshot = self._snapshots.begin(tick, contacts=contacts)
+        tick.refer(carried=self.sections.carrying(snapshot.load_components, *snapshot.places))
+        return snapshot
+
+    def make_room(self) -> None:
+        """Make room for all contacts of now."""
+        self._snapshots.make_room()
+
+    def with_contacts(self, snapshot: Snapshot) -> Snapshot:
+        """Return a snapshot with the contacts that were copied last."""
+        return self._snapshots.with_contacts(snapshot)
 
     def predicted(self, loads: np.ndarray, substep_s: float, begin_s: float) -> Reading:
         """Return Bullet's state before a sub-step, with the loads (6, m) that connections will have in it."""
-        snapshot = self._snapshots.take(contacts=False)
+        snapshot = self._snapshots.take()
         return Reading(replace(snapshot, load_components=loads), substep_s, begin_s)
-
-    def elastic_energy(self, reading: Reading, intact: np.ndarray) -> ElasticEnergy | None:
-        """Return the energy after a sub-step in elastic connections (m,) that are intact or reinforced."""
-        return self._elastic.energy(intact, *reading.snapshot.places) if self._elastic else None
 
     def loads(self, readings: Sequence[Reading]) -> tuple[BodyHistory, SubstepLoads]:
         """Return the states of all bodies after sub-steps, and the loads in these."""

@@ -35,6 +35,11 @@ class RupturedBars:
         self._lie_in_each_other = np.zeros(len(pairs), bool)
         self._hulls: dict[int, ConvexBody] = {}
 
+    @property
+    def waits(self) -> bool:
+        """Whether bodies lie in each other that may be apart after any sub-step."""
+        return bool(self._lie_in_each_other.any())
+
     def lie_in_each_other(self, cracked: np.ndarray, holding: np.ndarray) -> np.ndarray:
         """Return the connections (m,) whose bodies lay deep in each other as they ruptured, and were not apart since.
 

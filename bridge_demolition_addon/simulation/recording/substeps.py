@@ -10,17 +10,15 @@ from collections.abc import Iterable
 
 from ...bullet.constraints import ConstraintTable
 from .blast import Blast
-from .breaking import Breaker, ElasticPrediction
+from .breaking import Breaker, CoreStep
 from .drivers import Driver, LastSubstepLoads, ThresholdScale, WarmUp
 from .events import Events
 from .fall_beds import FallBeds
 from .frame_sums import FrameSums, MeasuredSubstep
 from .ground_drive import GroundDrive
 from .loads import Loads
-from .meter import Meter
 from .pulls import Pulls
 from .tendons import Tendons
-from .torques import Torques
 
 ORDER = (
     LastSubstepLoads,
@@ -33,8 +31,7 @@ ORDER = (
     Pulls,
     FallBeds,
     Tendons,
-    ElasticPrediction,
-    Torques,
+    CoreStep,
 )
 """Order in which drivers act, which decides the last bits of a run. The ground moves before events decide which
 connections and reinforcement are left; elastic connections come after all forces on the bodies, which they take over,
@@ -66,7 +63,7 @@ class SubstepRecorder:
         self,
         constraints: ConstraintTable,
         drivers: list[Driver],
-        meter: Meter,
+        core: CoreStep,
         breaker: Breaker,
         warm_up: WarmUp,
         sums: FrameSums | None,
@@ -74,7 +71,7 @@ class SubstepRecorder:
         self.elapsed_s = 0.0
         self.seconds = 0.0
         self.error: Exception | None = None
-        self._constraints, self._drivers, self._meter = constraints, drivers, meter
+        self._constraints, self._drivers, self._core = constraints, drivers, core
         self._breaker, self._warm_up, self._sums = breaker, warm_up, sums
 
     def before_substep(self, substep_s: float) -> None:
@@ -110,19 +107,16 @@ class SubstepRecorder:
 
     def _record(self, sums: FrameSums, substep_s: float) -> None:
         sums.count_work(self._warm_up.is_over)
-        reading = self._meter.read(substep_s, self.elapsed_s)
         self._warm_up.end_when_due(self.elapsed_s)
-        intact = self._breaker.break_overloaded(reading)
-        broken = self._breaker.follow(intact)
-        energy = self._meter.elastic_energy(reading, intact)
+        reading, energy = self._core.read(substep_s, self.elapsed_s, loads=True)
+        broken = self._breaker.follow(reading.snapshot.intact)
         sums.add(MeasuredSubstep(reading, broken, self._breaker.take_broken_before(), energy))
 
     def _follow(self, substep_s: float) -> None:
         """Break connections that are overloaded in a sub-step whose loads are not kept."""
         self._warm_up.end_when_due(self.elapsed_s)
         if self._breaker.uses_strength:
-            reading = self._meter.read(substep_s, self.elapsed_s, contacts=False)
-            intact = self._breaker.break_overloaded(reading)
+            intact = self._core.read(substep_s, self.elapsed_s, loads=False)[0].snapshot.intact
         else:
             intact = self._constraints.intact()
         self._breaker.take_broken_before()

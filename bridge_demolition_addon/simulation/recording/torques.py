@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...bullet.bodies import BodyTable
 from ...engineering.arithmetic import power
-from .drivers import Driver
 
 
-class Torques(Driver):
+class Torques:
     """Gives bodies (n,) the angular velocities that torques make in a sub-step, in place of the torques.
 
     Bullet's friction stops what contact points would slip by external forces alone, and leaves torques out
@@ -21,14 +19,14 @@ class Torques(Driver):
     solver: what torques make is larger by that, as Bullet does not damp it. Bodies that lose all keep their torques.
     """
 
-    def __init__(self, bodies: BodyTable, angular_damping: np.ndarray):
-        self._motion, self._left_per_second = bodies.motion(), 1.0 - angular_damping
+    def __init__(self, angular_damping: np.ndarray):
+        self._left_per_second = 1.0 - angular_damping
         self._substep_s, self._times_s = 0.0, np.zeros_like(self._left_per_second)
 
-    def before_substep(self, elapsed_s: float, substep_s: float) -> None:
-        """Turn the bodies; to be called after all torques are there."""
+    def times_s(self, substep_s: float) -> np.ndarray:
+        """Return the times (n,) in which torques of a sub-step turn the bodies; once all torques are there."""
         if substep_s != self._substep_s:
             left = power(self._left_per_second, substep_s)
             self._times_s = np.divide(substep_s, left, out=np.full_like(left, np.inf), where=left > 0.0)
             self._substep_s = substep_s
-        self._motion.turn_by_torques(self._times_s)
+        return self._times_s

@@ -6,7 +6,7 @@ import pytest
 
 from bridge_demolition_addon.engineering.elasticity.equations import spring_forces
 from bridge_demolition_addon.engineering.elasticity.joint_rows import JointFrames, joint_positions
-from bridge_demolition_addon.engineering.elasticity.kept_joints import KeptJoints, put_loads, velocities_alone
+from bridge_demolition_addon.engineering.elasticity.kept_joints import KeptJoints, velocities_alone
 from bridge_demolition_addon.engineering.elasticity.substep import Frames, Places, deformations
 from bridge_demolition_addon.engineering.geometry.vectors import rotated
 
@@ -66,17 +66,6 @@ def test_velocities_without_connections_are_those_of_loads_and_damping(rng):
     np.testing.assert_allclose(found, expected, rtol=1e-12, atol=1e-14)
     with pytest.raises(ValueError, match="numbers of 90 bodies"):
         velocities_alone(velocities[:, :-1], left, inverse, inertias, loads, 1.0 / 240.0)
-
-
-def test_loads_are_of_what_holds(rng):
-    numbers = rng.permutation(CONNECTIONS)[:200]
-    holding = np.isin(np.arange(CONNECTIONS), numbers)
-    parts = [(chosen, *rng.normal(size=(2, 6, len(chosen)))) for chosen in np.split(np.sort(numbers), [0, 150])]
-    loads, on_first = np.ones((6, CONNECTIONS)), rng.random(CONNECTIONS) < 0.5
-    put_loads(loads, on_first, holding, parts, 1 / 240)
-    assert not loads[..., ~holding].any() and loads[..., holding].all()
-    for chosen, of_first, of_second in parts:
-        np.testing.assert_allclose(loads[:, chosen], 240.0 * np.where(on_first[chosen], of_first, of_second))
 
 
 def test_stored_energy_is_half_of_load_by_strain(rng):

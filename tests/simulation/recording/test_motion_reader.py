@@ -10,6 +10,7 @@ from bridge_demolition_addon.bullet.world import BulletWorld
 from bridge_demolition_addon.engineering.mechanics.frame_loads import LoadAccumulator
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.simulation.blender_events import start_recording, stop_recording
+from bridge_demolition_addon.simulation.recording.breaking import CoreStep
 from bridge_demolition_addon.simulation.recording.meter import Meter
 from bridge_demolition_addon.simulation.recording.recorder import Recording
 from bridge_demolition_addon.simulation.recording.substeps import SubstepRecorder
@@ -37,11 +38,16 @@ def test_change_of_momentum_is_the_sum_of_all_impulses(blender, tmp_path, monkey
         kind = ("FIXED", "POINT", "HINGE")[i % 3]
         position = (np.array(bodies[i].location) + np.array(bodies[i + 1].location)) / 2
         blocks.connect(kind, tuple(position), bodies[i], bodies[i + 1], 2e4)
-    errors, velocities, read = [], [np.zeros((33, 3))], Meter.read
+    errors, velocities, meters, read, begin = [], [np.zeros((33, 3))], [], CoreStep.read, Meter.begin
     recording = Recording(blocks.scene, tmp_path)
 
-    def compare(meter, substep_s, end_s):
-        reading = read(meter, substep_s, end_s)
+    def note(meter, tick, *, contacts):
+        meters[:] = [meter]
+        return begin(meter, tick, contacts=contacts)
+
+    def compare(core, substep_s, end_s, *, loads):
+        reading, energy = read(core, substep_s, end_s, loads=loads)
+        (meter,) = meters
         bodies, loads = meter.loads([reading])
         before, after, inventory = velocities[-1], bodies.velocities_m_s[0], recording.inventory
         one = LoadAccumulator(inventory.pairs, inventory.volumes_m3, meter.normals)
@@ -50,9 +56,10 @@ def test_change_of_momentum_is_the_sum_of_all_impulses(blender, tmp_path, monkey
         impulses = one.finish().body_forces_n[1:] * substep_s + masses * GRAVITY * substep_s
         errors.append(abs(masses * (after - before)[1:] - impulses).max() / largest_impulse(one.finish(), substep_s))
         velocities.append(after.copy())
-        return reading
+        return reading, energy
 
-    monkeypatch.setattr(Meter, "read", compare)
+    monkeypatch.setattr(Meter, "begin", note)
+    monkeypatch.setattr(CoreStep, "read", compare)
     start_recording(recording)
     for frame in range(blocks.scene.frame_start, blocks.scene.frame_start + 62):
         blocks.scene.frame_set(frame)

@@ -24,8 +24,11 @@ class Places:
         rotations = np.repeat(np.eye(3)[:, :, None], 3, axis=2)
         sine, cosine = math.sin(self.turn), math.cos(self.turn)
         rotations[:, :, 1] = ((cosine, -sine, 0.0), (sine, cosine, 0.0), (0.0, 0.0, 1.0))
-        none = np.zeros((6, 3))
-        return BodyMotion(positions_m, rotations, none, np.ones(3), rotations, none, np.zeros(3, bool))
+        motion = BodyMotion.room_for(3)
+        motion.components[:], motion.asleep[:] = 0.0, False
+        motion.position_components_m[:], motion.rotation_components[:] = positions_m, rotations
+        motion.inverse_masses[:], motion.inverse_inertia_components[:] = 1.0, rotations
+        return motion
 
 
 @pytest.fixture
