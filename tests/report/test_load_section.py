@@ -3,6 +3,7 @@
 
 from types import SimpleNamespace
 
+from bridge_demolition_addon.model.results.records import LoadOfRun, record_of
 from bridge_demolition_addon.report.languages.translation import ENGLISH, language_names, language_table
 from bridge_demolition_addon.report.sections.loads import load_section
 
@@ -16,7 +17,8 @@ FLOOD = {
 
 
 def run_with(loads):
-    return SimpleNamespace(summary=SimpleNamespace(loads=loads))
+    records = [record_of(LoadOfRun, load, "loads") for load in loads]
+    return SimpleNamespace(summary=SimpleNamespace(loads=records))
 
 
 def test_each_load_has_a_row():

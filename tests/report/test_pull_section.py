@@ -3,6 +3,7 @@
 
 from types import SimpleNamespace
 
+from bridge_demolition_addon.model.results.records import PullOfRun, record_of
 from bridge_demolition_addon.report.document.blocks import DataTable, Paragraph
 from bridge_demolition_addon.report.sections.loads import pull_section
 
@@ -31,7 +32,8 @@ PULLS = [
 
 
 def run_with(pulls):
-    return SimpleNamespace(summary=SimpleNamespace(pulls=pulls, values={}))
+    records = [record_of(PullOfRun, pull, "pulls") for pull in pulls]
+    return SimpleNamespace(summary=SimpleNamespace(pulls=records, lifts=()))
 
 
 def test_each_cable_has_a_row():

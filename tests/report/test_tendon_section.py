@@ -3,6 +3,7 @@
 
 from types import SimpleNamespace
 
+from bridge_demolition_addon.model.results.records import TendonOfRun, record_of
 from bridge_demolition_addon.report.document.blocks import DataTable, Paragraph
 from bridge_demolition_addon.report.sections.reinforcement import tendon_section
 
@@ -22,7 +23,8 @@ TENDONS = [
 
 
 def run_with(tendons):
-    return SimpleNamespace(summary=SimpleNamespace(tendons=tendons))
+    records = [record_of(TendonOfRun, tendon, "tendons") for tendon in tendons]
+    return SimpleNamespace(summary=SimpleNamespace(tendons=records))
 
 
 def test_each_tendon_has_a_row():

@@ -34,6 +34,7 @@ class Reporting:
     """What Blender gives an operator."""
 
     bl_label = "Count"
+    options = SimpleNamespace(is_invoke=False)
 
     def __init__(self):
         self.reports = []
